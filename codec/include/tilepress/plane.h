@@ -1,0 +1,42 @@
+// Pixel plane: a frame's pixel words, row 0 on top, tight, padded to whole blocks.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tilepress/block.h"
+#include "tilepress/surface.h"
+
+namespace tilepress {
+
+/// The canonical copy of a frame on which everything else works: swizzled to pixel words, alpha forced to 255
+/// where the format has none, and padded to a multiple of 8 in both directions by repeating the nearest pixel
+/// inside the surface (spec §2). Re-used from frame to frame: no allocation while the size stays.
+class PixelPlane {
+ public:
+  /// Takes a copy of `view`. 16-bit pixels are stored one per word.
+  /// Precondition: 1 ≤ width, height ≤ kMaxSurfaceSide and a modelled format.
+  void assign(const SurfaceView& view);
+
+  uint32_t width() const { return width_; }
+  uint32_t height() const { return height_; }
+  uint32_t stride() const { return stride_; }            ///< words from row to row, = 8 · blocks_x
+  uint32_t blocks_x() const { return stride_ / kBlockSide; }
+  uint32_t blocks_y() const { return padded_height_ / kBlockSide; }
+  uint64_t blocks() const { return uint64_t{blocks_x()} * blocks_y(); }
+  PixelFormat format() const { return format_; }
+  const uint32_t* row(uint32_t y) const { return words_.data() + size_t{y} * stride_; }
+
+  /// Copies block (bx, by) out.
+  void load_block(uint32_t bx, uint32_t by, Block& out) const;
+  bool same_shape(const PixelPlane& other) const {
+    return width_ == other.width_ && height_ == other.height_ && format_ == other.format_;
+  }
+
+ private:
+  uint32_t width_ = 0, height_ = 0, stride_ = 0, padded_height_ = 0;
+  PixelFormat format_ = PixelFormat::kRgba8;
+  std::vector<uint32_t> words_;
+};
+
+}  // namespace tilepress

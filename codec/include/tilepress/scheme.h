@@ -1,0 +1,93 @@
+// Scheme: what every compression scheme offers, one block at a time: measure, encode, decode.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "tilepress/bit_io.h"
+#include "tilepress/block.h"
+#include "tilepress/pixel_format.h"
+#include "tilepress/plane.h"
+#include "tilepress/scheme_spec.h"
+#include "tilepress/statistics.h"
+#include "tilepress/surface_engine.h"
+
+namespace tilepress {
+
+struct Ccd;
+
+constexpr uint16_t kNotInCcd = 0xFFFF;
+
+/// What a scheme may know when a frame begins.
+struct FrameContext {
+  const PixelPlane& plane;            ///< the frame
+  uint64_t ordinal = 0;               ///< 0 = first frame of the surface
+  const Ccd* ccd = nullptr;           ///< CCD in force for the scheme's FVC configuration; null while none exists
+};
+
+/// One block and what the engine has already found out about it for all schemes.
+struct BlockContext {
+  const Block& block;
+  uint32_t bx = 0, by = 0;                ///< block column and row
+  const uint16_t* ccd_indices = nullptr;  ///< per raster position, kNotInCcd where absent; null without a CCD
+  uint32_t ras_bits = 0;                  ///< RAS stream of the RGBA planes, not rounded
+  uint32_t ras_ycocg_bits = 0;            ///< the same of the YCoCg-R planes
+};
+
+/// What a scheme wants the engine to compute once for all.
+struct SchemeNeeds {
+  bool ccd = false;
+  bool ras = false;
+  bool ras_ycocg = false;
+};
+
+/// Encoder side. begin_frame() once per frame, then any block in any order.
+/// encode() writes exactly measure() payload bits and csb_bits() CSB bits.
+class BlockEncoder {
+ public:
+  virtual ~BlockEncoder() = default;
+  virtual SchemeNeeds needs() const = 0;
+  virtual void begin_frame(const FrameContext& frame) = 0;
+  /// CSB bits of each block of this frame.
+  virtual uint32_t csb_bits() const = 0;
+  /// Bits of the tables that go with the frame (rCCD, code table): what write_tables() writes.
+  virtual uint64_t palette_bits() const = 0;
+  virtual void write_tables(BitWriter& out) const = 0;
+  /// Payload bits of the block.
+  virtual uint32_t measure(const BlockContext& block) const = 0;
+  virtual void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const = 0;
+  /// Adds what goes beyond the common columns for a block whose payload has `payload_bits`.
+  virtual void account(const BlockContext&, uint32_t /*payload_bits*/, SchemeStatistics&) const {}
+};
+
+/// Decoder side: from the tables, the CSB and the payload alone. Hostile bits give false, never undefined
+/// behaviour.
+class BlockDecoder {
+ public:
+  virtual ~BlockDecoder() = default;
+  /// Takes the tables of a frame, `bits` long (0 = the frame has none). False: not a valid table.
+  virtual bool read_tables(BitReader& in, uint64_t bits) = 0;
+  /// CSB bits of each block of a frame with these tables.
+  virtual uint32_t csb_bits() const = 0;
+  /// Payload bits of a block, from its CSB alone where the CSB tells; otherwise the most it can have.
+  /// Restores one block. False: the bits are not what any encoder writes.
+  virtual bool decode(BitReader& csb, BitReader& payload, Block& out) const = 0;
+};
+
+/// One line of the registry: everything users are told about a scheme comes from here.
+struct SchemeInfo {
+  const char* name;
+  const char* label;        ///< for reports
+  const char* summary;      ///< one sentence
+  const char* source;       ///< paper section or publication
+  bool takes_fvc_keys;      ///< fvc, policy, ways, sample, period, coverage
+  bool takes_ras_keys;      ///< ycocg, sizes
+  std::unique_ptr<BlockEncoder> (*make_encoder)(const SchemeSpec&, const FormatTraits&, const ModelOptions&);
+  std::unique_ptr<BlockDecoder> (*make_decoder)(const SchemeSpec&, const FormatTraits&, const ModelOptions&);
+};
+
+std::span<const SchemeInfo> scheme_registry();
+const SchemeInfo* find_scheme(std::string_view name);
+
+}  // namespace tilepress

@@ -1,0 +1,73 @@
+// Statistics: what a frame gives, per surface and per scheme, and their sums over a run.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tilepress/pixel_format.h"
+
+namespace tilepress {
+
+/// Metrics of the frame itself (spec §8), over the pixels inside the surface.
+struct FrameMetrics {
+  uint64_t unique_colors = 0;
+  double entropy = 0;                ///< bits per pixel of the colour histogram
+  double pixel_change = 0;           ///< 0..1, against the frame before; 0 in a surface's first frame
+  double color_change = 0;           ///< 0..pixel_change
+  double fvc_coverage = 0;           ///< 0..1, of the default FVC
+  double fvc_relative_coverage = 0;  ///< 0..1
+  double top100_coverage = 0;        ///< 0..1
+};
+
+/// What one scheme made of one frame, or, summed, of many (spec §7). All sizes in bits.
+struct SchemeStatistics {
+  uint64_t blocks = 0;
+  uint64_t raw_bits = 0;
+  uint64_t payload_bits = 0;
+  uint64_t bursts = 0;
+  uint64_t burst_bits = 128;   ///< size of one burst; equal over a run
+  uint64_t csb_bits = 0;
+  uint64_t palette_bits = 0;
+  uint64_t extra_bits = 0;     ///< further traffic that a scheme causes (a second pass, checksums)
+  uint64_t vdcp_blocks = 0;    ///< hdcp only: blocks coded by VDCP
+  uint64_t ras_blocks = 0;     ///< hdcp only: blocks coded by RAS
+  uint64_t checked_blocks = 0; ///< --verify: blocks encoded, decoded and compared
+  uint64_t mismatched_blocks = 0;
+
+  uint64_t moved_bits() const { return bursts * burst_bits + csb_bits + palette_bits; }
+  /// raw / (payload + CSB): the paper's first comparison, no bursts.
+  double rate_payload() const;
+  /// raw / moved: what DRAM moves.
+  double rate() const;
+  SchemeStatistics& operator+=(const SchemeStatistics& other);
+};
+
+/// One frame of one surface.
+struct FrameStatistics {
+  uint64_t frame = 0;
+  uint32_t surface = 0;
+  uint32_t width = 0, height = 0;
+  PixelFormat format = PixelFormat::kRgba8;
+  bool warmup = false;
+  uint64_t time_ns = 0;      ///< when the frame was presented, since the run began
+  uint64_t readback_ns = 0;  ///< time the program's thread spent in capturing
+  uint64_t encode_ns = 0;    ///< time the engine spent on the frame
+  FrameMetrics metrics;
+  std::vector<SchemeStatistics> schemes;  ///< in the order the schemes were given
+};
+
+/// CSV rows of a run's files (spec §10; RFC 4180, '\n' line ends). Each row ends with a newline.
+std::string frames_csv_header();
+std::string schemes_csv_header();
+void append_frames_row(const FrameStatistics& frame, std::string& out);
+/// One row per scheme; scheme_names[i] names frame.schemes[i].
+void append_schemes_rows(const FrameStatistics& frame, const std::vector<std::string>& scheme_names,
+                         std::string& out);
+/// Quotes a field where RFC 4180 needs it.
+std::string csv_field(std::string_view text);
+/// Shortest decimal that reads back as the same double; '.' as decimal point whatever the locale.
+std::string csv_number(double value);
+
+}  // namespace tilepress

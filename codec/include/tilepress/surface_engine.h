@@ -1,0 +1,44 @@
+// Surface engine: feeds the frames of one surface through the tiler, the schemes and the DRAM model.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "tilepress/scheme_spec.h"
+#include "tilepress/statistics.h"
+#include "tilepress/surface.h"
+
+namespace tilepress {
+
+/// The modelled hardware.
+struct ModelOptions {
+  uint32_t tile_side = 32;    ///< render tile, pixels; a multiple of 8, 8..4096
+  uint32_t burst_bits = 128;  ///< DRAM transfer unit; a power of two, 16..2048
+  bool verify = false;        ///< encode, decode and compare every block of every frame
+};
+
+/// State of one surface: the frame before, and one FVC and one CCD per FVC configuration in use.
+/// A surface is a buffer with a size and a pixel format (spec §1): a buffer of another shape is another
+/// surface and needs an engine of its own. Not thread-safe; engines are independent of each other.
+class SurfaceEngine {
+ public:
+  SurfaceEngine(const std::vector<SchemeSpec>& schemes, const ModelOptions& options);
+  ~SurfaceEngine();
+  SurfaceEngine(SurfaceEngine&&) noexcept;
+  SurfaceEngine& operator=(SurfaceEngine&&) noexcept;
+
+  /// Processes the surface's next frame. Fills width, height, format, warmup, encode_ns, metrics and schemes of
+  /// `out`; leaves frame, surface, time_ns and readback_ns as they are. The vectors of `out` are re-used.
+  /// Precondition: a modelled format, and the shape of the frames before.
+  void process(const SurfaceView& frame, FrameStatistics& out);
+
+  /// Number of frames processed.
+  uint64_t frames() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tilepress

@@ -1,0 +1,74 @@
+// Run directory: frames.csv, schemes.csv and run.json of one run (spec §10), written so that a kill loses nothing.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tilepress/run_options.h"
+#include "tilepress/statistics.h"
+
+namespace tilepress {
+
+/// What run.json tells beside the totals.
+struct RunInfo {
+  std::vector<std::string> command;  ///< argv of the captured program or of the tool
+  std::string program;               ///< base name
+  int64_t pid = 0;
+  std::string via;                   ///< "preload", "glvnd", "frames", "replay"
+  std::string gl_vendor, gl_renderer, gl_version, api;  ///< api: "EGL", "GLX", "OSMesa" or empty
+  std::vector<std::pair<std::string, std::string>> further;  ///< more string members
+};
+
+struct RunCounts {
+  uint64_t seen = 0;         ///< frames presented
+  uint64_t captured = 0;     ///< frames with rows
+  uint64_t dropped = 0;      ///< lost because the queue was full (--on-full drop)
+  uint64_t skipped = 0;      ///< not asked for (--frames, --every)
+  uint64_t unsupported = 0;  ///< in a format that is not modelled
+  uint64_t not_captured = 0; ///< could not be read back
+};
+
+/// Writes one run. One write() per file and frame, O_APPEND: after a SIGKILL every finished frame's rows are
+/// there. schemes.csv goes before frames.csv, so a row in frames.csv means that the frame is complete.
+/// run.json is replaced atomically: at creation ("state": "running"), at most twice a second, and by finish().
+/// Not thread-safe. Nothing throws; errors are reported as one line each by error().
+class RunWriter {
+ public:
+  RunWriter() = default;
+  RunWriter(const RunWriter&) = delete;
+  RunWriter& operator=(const RunWriter&) = delete;
+  ~RunWriter();  ///< closes the files; does not finish()
+
+  /// Creates `path` (parents too) and the three files. Fails if `path` already holds a run.
+  bool create(const std::string& path, const RunInfo& info, const RunOptions& options);
+  bool append(const FrameStatistics& frame);
+  /// May be called at any time; run.json follows within half a second or at finish().
+  void set_counts(const RunCounts& counts);
+  void set_info(const RunInfo& info);
+  /// state: "finished", or "failed" with the reason.
+  bool finish(const std::string& state, const std::string& reason);
+
+  bool is_open() const { return frames_fd_ >= 0; }
+  const std::string& path() const { return path_; }
+  const std::string& error() const { return error_; }
+  /// Sums over the non-warmup frames, in the order of the schemes.
+  const std::vector<SchemeStatistics>& totals() const { return totals_; }
+  uint64_t measured_frames() const { return measured_frames_; }
+
+ private:
+  bool write_json(const std::string& state, const std::string& reason);
+  std::string path_, error_;
+  RunInfo info_;
+  RunOptions options_;
+  RunCounts counts_;
+  std::vector<std::string> scheme_names_;
+  std::vector<SchemeStatistics> totals_;
+  uint64_t measured_frames_ = 0;
+  int frames_fd_ = -1, schemes_fd_ = -1;
+  uint64_t last_json_ns_ = 0;
+  std::string row_buffer_;
+};
+
+}  // namespace tilepress

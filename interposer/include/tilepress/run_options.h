@@ -1,0 +1,62 @@
+// Run options: what a run models and captures, and the TILEPRESS_* environment that carries it into a program.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tilepress/scheme_spec.h"
+#include "tilepress/surface_engine.h"
+
+namespace tilepress {
+
+/// A set of frame numbers: "0-99,200". Empty = every frame.
+class FrameSet {
+ public:
+  /// Parses `text`. On failure returns nothing and sets `error` to one line (empty or reversed range, no number).
+  static std::optional<FrameSet> parse(std::string_view text, std::string& error);
+  bool contains(uint64_t frame) const;
+  bool all() const { return ranges_.empty(); }
+  /// Largest frame of the set; nothing when the set is every frame.
+  std::optional<uint64_t> last() const;
+  std::string text() const;
+
+ private:
+  struct Range {
+    uint64_t first, last;
+  };
+  std::vector<Range> ranges_;
+};
+
+enum class OnFull : uint8_t { kBlock, kDrop };
+
+/// Options that `run`, `replay`, `frames` and the shim share.
+struct RunOptions {
+  std::vector<SchemeSpec> schemes = default_schemes();
+  ModelOptions model;          ///< tile, burst, verify
+  FrameSet frames;             ///< frame numbers to take, per surface
+  uint64_t every = 1;          ///< of those, every n-th frame number (frame % every == 0)
+  OnFull on_full = OnFull::kBlock;
+  std::string output;          ///< -o DIR; absolute where it goes into an environment
+  std::string log_level = "warn";
+  std::string log_file;        ///< where the shim writes its log; empty = nowhere
+
+  bool takes(uint64_t frame) const { return frames.contains(frame) && frame % every == 0; }
+};
+
+/// Sets one option by its long name without dashes ("scheme", "tile", "burst", "frames", "every", "verify",
+/// "on-full", "log-level", "log-file", "output"). "scheme" takes a space-separated list and replaces the
+/// schemes. Returns false and one line in `error` for an unknown name or a value out of range.
+bool set_run_option(RunOptions& options, std::string_view name, std::string_view value, std::string& error);
+
+/// The environment that makes the shim run with these options: TILEPRESS_OUT, TILEPRESS_SCHEME, TILEPRESS_TILE, …
+std::map<std::string, std::string> to_environment(const RunOptions& options);
+
+/// Reads the options back from TILEPRESS_* variables; variables not set leave the default.
+/// False and one line in `error` at the first bad value.
+bool from_environment(RunOptions& options, std::string& error);
+
+}  // namespace tilepress
