@@ -1,4 +1,5 @@
-// Run directory: frames.csv, schemes.csv and run.json of one run (spec §10), written so that a kill loses nothing.
+// Run directory: frames.csv, schemes.csv and run.json of one run (spec §10), written so that a kill loses
+// nothing.
 #pragma once
 
 #include <cstdint>
@@ -16,24 +17,24 @@ struct RunInfo {
   std::vector<std::string> command;  ///< argv of the captured program or of the tool
   std::string program;               ///< base name
   int64_t pid = 0;
-  std::string via;                   ///< "preload", "glvnd", "frames", "replay"
-  std::string gl_vendor, gl_renderer, gl_version, api;  ///< api: "EGL", "GLX", "OSMesa" or empty
+  std::string via;                                           ///< "preload", "glvnd", "frames", "replay"
+  std::string gl_vendor, gl_renderer, gl_version, api;       ///< api: "EGL", "GLX", "OSMesa" or empty
   std::vector<std::pair<std::string, std::string>> further;  ///< more string members
 };
 
 struct RunCounts {
-  uint64_t seen = 0;         ///< frames presented
-  uint64_t captured = 0;     ///< frames with rows
-  uint64_t dropped = 0;      ///< lost because the queue was full (--on-full drop)
-  uint64_t skipped = 0;      ///< not asked for (--frames, --every)
-  uint64_t unsupported = 0;  ///< in a format that is not modelled
-  uint64_t not_captured = 0; ///< could not be read back
+  uint64_t seen = 0;          ///< frames presented
+  uint64_t captured = 0;      ///< frames with rows
+  uint64_t dropped = 0;       ///< lost because the queue was full (--on-full drop)
+  uint64_t skipped = 0;       ///< not asked for (--frames, --every)
+  uint64_t unsupported = 0;   ///< in a format that is not modelled
+  uint64_t not_captured = 0;  ///< could not be read back
 };
 
 /// Writes one run. One write() per file and frame, O_APPEND: after a SIGKILL every finished frame's rows are
 /// there. schemes.csv goes before frames.csv, so a row in frames.csv means that the frame is complete.
-/// run.json is replaced atomically: at creation ("state": "running"), at most twice a second, and by finish().
-/// Not thread-safe. Nothing throws; errors are reported as one line each by error().
+/// run.json is replaced atomically: at creation ("state": "running"), at most twice a second, and by
+/// finish(). Not thread-safe. Nothing throws; errors are reported as one line each by error().
 class RunWriter {
  public:
   RunWriter() = default;
@@ -59,7 +60,7 @@ class RunWriter {
 
  private:
   bool write_json(const std::string& state, const std::string& reason);
-  std::string path_, error_;
+  std::string path_, error_, started_;
   RunInfo info_;
   RunOptions options_;
   RunCounts counts_;

@@ -1,4 +1,5 @@
-// Run options: what a run models and captures, and the TILEPRESS_* environment that carries it into a program.
+// Run options: what a run models and captures, and the TILEPRESS_* environment that carries it into a
+// program.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,8 @@ namespace tilepress {
 /// A set of frame numbers: "0-99,200". Empty = every frame.
 class FrameSet {
  public:
-  /// Parses `text`. On failure returns nothing and sets `error` to one line (empty or reversed range, no number).
+  /// Parses `text`. On failure returns nothing and sets `error` to one line (empty or reversed range, no
+  /// number).
   static std::optional<FrameSet> parse(std::string_view text, std::string& error);
   bool contains(uint64_t frame) const;
   bool all() const { return ranges_.empty(); }
@@ -36,13 +38,13 @@ enum class OnFull : uint8_t { kBlock, kDrop };
 /// Options that `run`, `replay`, `frames` and the shim share.
 struct RunOptions {
   std::vector<SchemeSpec> schemes = default_schemes();
-  ModelOptions model;          ///< tile, burst, verify
-  FrameSet frames;             ///< frame numbers to take, per surface
-  uint64_t every = 1;          ///< of those, every n-th frame number (frame % every == 0)
+  ModelOptions model;  ///< tile, burst, verify
+  FrameSet frames;     ///< frame numbers to take, per surface
+  uint64_t every = 1;  ///< of those, every n-th frame number (frame % every == 0)
   OnFull on_full = OnFull::kBlock;
-  std::string output;          ///< -o DIR; absolute where it goes into an environment
+  std::string output;  ///< -o DIR; absolute where it goes into an environment
   std::string log_level = "warn";
-  std::string log_file;        ///< where the shim writes its log; empty = nowhere
+  std::string log_file;  ///< where the shim writes its log; empty = nowhere
 
   bool takes(uint64_t frame) const { return frames.contains(frame) && frame % every == 0; }
 };
@@ -52,10 +54,12 @@ struct RunOptions {
 /// schemes. Returns false and one line in `error` for an unknown name or a value out of range.
 bool set_run_option(RunOptions& options, std::string_view name, std::string_view value, std::string& error);
 
-/// The environment that makes the shim run with these options: TILEPRESS_OUT, TILEPRESS_SCHEME, TILEPRESS_TILE, …
+/// The environment that makes the shim run with these options: TILEPRESS_OUT, TILEPRESS_SCHEME,
+/// TILEPRESS_TILE, … All of them, an empty value standing for the default, so that none is inherited by
+/// accident.
 std::map<std::string, std::string> to_environment(const RunOptions& options);
 
-/// Reads the options back from TILEPRESS_* variables; variables not set leave the default.
+/// Reads the options back from TILEPRESS_* variables; variables not set or empty leave the default.
 /// False and one line in `error` at the first bad value.
 bool from_environment(RunOptions& options, std::string& error);
 

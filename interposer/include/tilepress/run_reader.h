@@ -1,0 +1,52 @@
+// Run reader: a run directory as statistics again, repaired where its program was killed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tilepress/run_directory.h"
+
+namespace tilepress {
+
+/// A run directory read back.
+struct RunRecord {
+  std::string path;
+  std::string state = "running";  ///< of run.json: "running", "finished", "failed", "killed by signal 9"
+  std::string reason;
+  std::string started;  ///< UTC, ISO 8601; empty if run.json does not tell
+  RunInfo info;
+  RunCounts counts;
+  uint64_t burst_bits = 128;
+  std::vector<std::string> scheme_names;  ///< in the order of the run's options
+  std::vector<FrameStatistics>
+      frames;  ///< complete frames in file order; schemes in the order of scheme_names
+  /// Sums over the frames that are not warmup, in the order of scheme_names.
+  std::vector<SchemeStatistics> totals;
+  uint64_t measured_frames = 0;  ///< frames that are not warmup
+};
+
+/// True if `path` holds any file of a run.
+bool holds_run(const std::string& path);
+
+/// Reads the run in folder `path`. A row that is still being written, and rows of a frame that is not
+/// complete, are left out. Columns are found by name; unknown columns are passed over. A missing run.json is
+/// no error. False and one line in `error` ("path/file: reason") if the folder holds no run or a file is
+/// malformed.
+bool read_run(const std::string& path, RunRecord& out, std::string& error);
+
+/// How the program of a run ended.
+struct RunEnd {
+  std::string state = "finished";
+  std::string reason;
+  std::optional<int> exit_status;
+  std::optional<int> signal;
+};
+
+/// Closes a run whose program has ended: cuts off a torn last row and the rows of an incomplete frame, and
+/// replaces run.json by one with totals over what is there. A state "failed" that the run itself has noted
+/// stays. `record` receives the run as it then is. False and one line in `error` on failure.
+bool close_run(const std::string& path, const RunEnd& end, RunRecord& record, std::string& error);
+
+}  // namespace tilepress

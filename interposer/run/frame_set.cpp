@@ -1,0 +1,77 @@
+// Frame set: the ranges of --frames.
+#include <algorithm>
+#include <charconv>
+
+#include "tilepress/run_options.h"
+
+namespace tilepress {
+namespace {
+
+bool parse_number(std::string_view text, uint64_t& out) {
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return code == std::errc() && end == text.data() + text.size() && !text.empty();
+}
+
+}  // namespace
+
+std::optional<FrameSet> FrameSet::parse(std::string_view text, std::string& error) {
+  FrameSet set;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t comma = std::min(text.find(',', begin), text.size());
+    const std::string_view part = text.substr(begin, comma - begin);
+    begin = comma + 1;
+    if (part.empty()) {
+      error = "empty range";
+      return std::nullopt;
+    }
+    const size_t dash = part.find('-');
+    const std::string_view first_text = part.substr(0, dash);
+    const std::string_view last_text = dash == std::string_view::npos ? first_text : part.substr(dash + 1);
+    Range range{};
+    if (!parse_number(first_text, range.first) || !parse_number(last_text, range.last)) {
+      error = "'" + std::string(part) + "' is not a frame or a range of frames";
+      return std::nullopt;
+    }
+    if (range.first > range.last) {
+      error = "reversed range " + std::string(part);
+      return std::nullopt;
+    }
+    set.ranges_.push_back(range);
+  }
+  // Sorted and merged, so that contains() can search and text() is the shortest.
+  std::sort(set.ranges_.begin(), set.ranges_.end(),
+            [](const Range& a, const Range& b) { return a.first < b.first; });
+  std::vector<Range> merged;
+  for (const Range& range : set.ranges_) {
+    if (!merged.empty() && (range.first <= merged.back().last || range.first - merged.back().last == 1))
+      merged.back().last = std::max(merged.back().last, range.last);
+    else
+      merged.push_back(range);
+  }
+  set.ranges_ = std::move(merged);
+  return set;
+}
+
+bool FrameSet::contains(uint64_t frame) const {
+  if (ranges_.empty()) return true;
+  const auto after = std::upper_bound(ranges_.begin(), ranges_.end(), frame,
+                                      [](uint64_t value, const Range& range) { return value < range.first; });
+  return after != ranges_.begin() && frame <= std::prev(after)->last;
+}
+
+std::optional<uint64_t> FrameSet::last() const {
+  if (ranges_.empty()) return std::nullopt;
+  return ranges_.back().last;
+}
+
+std::string FrameSet::text() const {
+  std::string out;
+  for (const Range& range : ranges_) {
+    if (!out.empty()) out += ',';
+    out += std::to_string(range.first);
+    if (range.last != range.first) out += '-' + std::to_string(range.last);
+  }
+  return out;
+}
+
+}  // namespace tilepress

@@ -1,0 +1,137 @@
+// Run directory: the writer's side. One write() per file and frame, schemes.csv before frames.csv.
+#include "tilepress/run_directory.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+
+#include "run/run_json.h"
+#include "tilepress/run_reader.h"
+
+namespace tilepress {
+namespace {
+
+constexpr uint64_t kJsonPeriodNs = 500'000'000;
+
+uint64_t monotonic_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<uint64_t>(now.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(now.tv_nsec);
+}
+
+/// Appends all of `text` or nothing: what a full disk lets through of a row is cut off again.
+bool append_whole(int fd, const std::string& text) {
+  const off_t before = lseek(fd, 0, SEEK_END);
+  size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t written = write(fd, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) {
+      const int error = written == 0 ? ENOSPC : errno;
+      if (done > 0 && before >= 0 && ftruncate(fd, before) != 0) { /* the reader drops a torn row */
+      }
+      errno = error;
+      return false;
+    }
+    done += static_cast<size_t>(written);
+  }
+  return true;
+}
+
+int create_csv(const std::string& path, const std::string& header) {
+  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
+  if (fd >= 0 && !append_whole(fd, header)) {
+    const int error = errno;
+    close(fd);
+    unlink(path.c_str());
+    errno = error;
+    return -1;
+  }
+  return fd;
+}
+
+}  // namespace
+
+RunWriter::~RunWriter() {
+  if (frames_fd_ >= 0) close(frames_fd_);
+  if (schemes_fd_ >= 0) close(schemes_fd_);
+}
+
+bool RunWriter::create(const std::string& path, const RunInfo& info, const RunOptions& options) {
+  path_ = path;
+  info_ = info;
+  options_ = options;
+  started_ = utc_now();
+  scheme_names_.clear();
+  for (const SchemeSpec& spec : options.schemes) scheme_names_.push_back(spec.text);
+  totals_.assign(scheme_names_.size(), SchemeStatistics{});
+  for (SchemeStatistics& total : totals_) total.burst_bits = options.model.burst_bits;
+
+  std::error_code code;
+  std::filesystem::create_directories(path, code);
+  if (code) {
+    error_ = path + ": " + code.message();
+    return false;
+  }
+  if (holds_run(path)) {
+    error_ = path + ": already holds a run";
+    return false;
+  }
+  schemes_fd_ = create_csv(path + "/schemes.csv", schemes_csv_header());
+  if (schemes_fd_ >= 0) frames_fd_ = create_csv(path + "/frames.csv", frames_csv_header());
+  if (frames_fd_ < 0) {
+    error_ = path + ": " + std::strerror(errno);
+    return false;
+  }
+  return write_json("running", "");
+}
+
+bool RunWriter::append(const FrameStatistics& frame) {
+  row_buffer_.clear();
+  append_schemes_rows(frame, scheme_names_, row_buffer_);
+  if (!append_whole(schemes_fd_, row_buffer_)) {
+    error_ = path_ + "/schemes.csv: " + std::strerror(errno);
+    return false;
+  }
+  row_buffer_.clear();
+  append_frames_row(frame, row_buffer_);
+  if (!append_whole(frames_fd_, row_buffer_)) {
+    error_ = path_ + "/frames.csv: " + std::strerror(errno);
+    return false;
+  }
+  if (!frame.warmup) {
+    ++measured_frames_;
+    for (size_t i = 0; i < totals_.size(); ++i) totals_[i] += frame.schemes[i];
+  }
+  return monotonic_ns() - last_json_ns_ < kJsonPeriodNs || write_json("running", "");
+}
+
+void RunWriter::set_counts(const RunCounts& counts) {
+  counts_ = counts;
+  if (is_open() && monotonic_ns() - last_json_ns_ >= kJsonPeriodNs) write_json("running", "");
+}
+
+void RunWriter::set_info(const RunInfo& info) {
+  info_ = info;
+}
+
+bool RunWriter::finish(const std::string& state, const std::string& reason) {
+  return is_open() && write_json(state, reason);
+}
+
+bool RunWriter::write_json(const std::string& state, const std::string& reason) {
+  last_json_ns_ = monotonic_ns();
+  const std::string text =
+      run_json_text({state, reason, started_, info_, options_, counts_, measured_frames_, totals_});
+  std::string failure;
+  if (replace_file(path_ + "/run.json", text, failure)) return true;
+  error_ = path_ + "/run.json: " + failure;
+  return false;
+}
+
+}  // namespace tilepress

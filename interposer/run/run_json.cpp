@@ -1,0 +1,201 @@
+// Run JSON: nlohmann's ordered JSON, so that people find the members in the order of this file.
+#include "run/run_json.h"
+
+#include <fcntl.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+namespace tilepress {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json host_json() {
+  utsname system{};
+  uname(&system);
+  return {{"name", system.nodename},
+          {"system", std::string(system.sysname) + " " + system.release},
+          {"machine", system.machine},
+          {"cpus", sysconf(_SC_NPROCESSORS_ONLN)}};
+}
+
+Json counts_json(const RunCounts& counts) {
+  return {{"seen", counts.seen},
+          {"captured", counts.captured},
+          {"dropped", counts.dropped},
+          {"skipped", counts.skipped},
+          {"unsupported", counts.unsupported},
+          {"not_captured", counts.not_captured}};
+}
+
+Json options_json(const RunOptions& options) {
+  Json schemes = Json::array();
+  for (const SchemeSpec& spec : options.schemes) schemes.push_back(spec.text);
+  return {{"schemes", schemes},
+          {"tile", options.model.tile_side},
+          {"burst", options.model.burst_bits},
+          {"verify", options.model.verify},
+          {"frames", options.frames.text()},
+          {"every", options.every},
+          {"on_full", options.on_full == OnFull::kBlock ? "block" : "drop"}};
+}
+
+Json totals_json(const std::vector<std::string>& names, const std::vector<SchemeStatistics>& totals) {
+  Json list = Json::array();
+  for (size_t i = 0; i < names.size() && i < totals.size(); ++i) {
+    const SchemeStatistics& sum = totals[i];
+    Json entry = {{"scheme", names[i]},
+                  {"blocks", sum.blocks},
+                  {"raw_bits", sum.raw_bits},
+                  {"payload_bits", sum.payload_bits},
+                  {"bursts", sum.bursts},
+                  {"csb_bits", sum.csb_bits},
+                  {"palette_bits", sum.palette_bits},
+                  {"moved_bits", sum.moved_bits()}};
+    // A run without measured frames has no rate; JSON has no NaN to say so with.
+    entry["rate_payload"] = sum.raw_bits > 0 ? Json(sum.rate_payload()) : Json(nullptr);
+    entry["rate"] = sum.raw_bits > 0 ? Json(sum.rate()) : Json(nullptr);
+    if (sum.checked_blocks > 0) {
+      entry["checked_blocks"] = sum.checked_blocks;
+      entry["mismatched_blocks"] = sum.mismatched_blocks;
+    }
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+std::string dump(const Json& document) {
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+template <typename T>
+void take(const Json& object, const char* name, T& out) {
+  const auto member = object.find(name);
+  if (member == object.end()) return;
+  try {
+    out = member->get<T>();
+  } catch (const Json::exception&) {
+    // A member of another type is one we do not know: left as it was.
+  }
+}
+
+}  // namespace
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+std::string run_json_text(const RunDocument& document) {
+  const RunInfo& info = document.info;
+  std::vector<std::string> names;
+  for (const SchemeSpec& spec : document.options.schemes) names.push_back(spec.text);
+  Json json = {{"schema_version", kRunSchemaVersion},
+               {"tilepress_version", TILEPRESS_VERSION},
+               {"state", document.state},
+               {"reason", document.reason},
+               {"started", document.started},
+               {"command", info.command},
+               {"program", info.program},
+               {"pid", info.pid},
+               {"via", info.via},
+               {"api", info.api},
+               {"gl_vendor", info.gl_vendor},
+               {"gl_renderer", info.gl_renderer},
+               {"gl_version", info.gl_version}};
+  for (const auto& [name, value] : info.further) json[name] = value;
+  json["host"] = host_json();
+  json["options"] = options_json(document.options);
+  json["counts"] = counts_json(document.counts);
+  json["measured_frames"] = document.measured_frames;
+  json["schemes"] = totals_json(names, document.totals);
+  return dump(json);
+}
+
+bool read_run_json(std::string_view text, RunRecord& record, std::string& reason) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) {
+    reason = "not a JSON object";
+    return false;
+  }
+  take(json, "state", record.state);
+  take(json, "reason", record.reason);
+  take(json, "started", record.started);
+  RunInfo& info = record.info;
+  take(json, "command", info.command);
+  take(json, "program", info.program);
+  take(json, "pid", info.pid);
+  take(json, "via", info.via);
+  take(json, "api", info.api);
+  take(json, "gl_vendor", info.gl_vendor);
+  take(json, "gl_renderer", info.gl_renderer);
+  take(json, "gl_version", info.gl_version);
+  static constexpr const char* kKnown[] = {
+      "state", "reason",    "started",     "program",    "via",
+      "api",   "gl_vendor", "gl_renderer", "gl_version", "tilepress_version"};
+  for (const auto& [name, value] : json.items()) {
+    const bool known = std::find(std::begin(kKnown), std::end(kKnown), name) != std::end(kKnown);
+    if (value.is_string() && !known) info.further.emplace_back(name, value.get<std::string>());
+  }
+  if (const auto counts = json.find("counts"); counts != json.end() && counts->is_object()) {
+    take(*counts, "seen", record.counts.seen);
+    take(*counts, "captured", record.counts.captured);
+    take(*counts, "dropped", record.counts.dropped);
+    take(*counts, "skipped", record.counts.skipped);
+    take(*counts, "unsupported", record.counts.unsupported);
+    take(*counts, "not_captured", record.counts.not_captured);
+  }
+  if (const auto options = json.find("options"); options != json.end() && options->is_object()) {
+    take(*options, "schemes", record.scheme_names);
+    take(*options, "burst", record.burst_bits);
+  }
+  return true;
+}
+
+std::string finished_run_json(std::string_view text, const RunRecord& record, const RunEnd& end) {
+  Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object())
+    json = {{"schema_version", kRunSchemaVersion},
+            {"tilepress_version", TILEPRESS_VERSION},
+            {"program", record.info.program}};
+  json["state"] = record.state;
+  json["reason"] = record.reason;
+  if (end.exit_status) json["exit_status"] = *end.exit_status;
+  if (end.signal) json["signal"] = *end.signal;
+  json["ended"] = utc_now();
+  json["counts"] = counts_json(record.counts);
+  json["measured_frames"] = record.measured_frames;
+  json["schemes"] = totals_json(record.scheme_names, record.totals);
+  return dump(json);
+}
+
+bool replace_file(const std::string& path, std::string_view text, std::string& reason) {
+  const std::string beside = path + ".tmp";
+  const int fd = open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  bool good = fd >= 0;
+  while (good && !text.empty()) {
+    const ssize_t written = write(fd, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    good = written >= 0;
+    if (good) text.remove_prefix(static_cast<size_t>(written));
+  }
+  int error = errno;
+  if (fd >= 0) close(fd);
+  if (good && rename(beside.c_str(), path.c_str()) == 0) return true;
+  if (good) error = errno;
+  unlink(beside.c_str());
+  reason = std::strerror(error);
+  return false;
+}
+
+}  // namespace tilepress

@@ -1,0 +1,44 @@
+// Run JSON: run.json as text, and back.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tilepress/run_directory.h"
+#include "tilepress/run_reader.h"
+
+namespace tilepress {
+
+constexpr int kRunSchemaVersion = 1;
+
+/// All that run.json says.
+struct RunDocument {
+  std::string state = "running";
+  std::string reason;
+  std::string started;  ///< UTC, ISO 8601
+  RunInfo info;
+  RunOptions options;
+  RunCounts counts;
+  uint64_t measured_frames = 0;
+  std::vector<SchemeStatistics> totals;  ///< in the order of options.schemes
+};
+
+std::string run_json_text(const RunDocument& document);
+
+/// Fills what `text` holds into `record`; members it lacks stay as they are. False and a reason if it is no
+/// JSON object.
+bool read_run_json(std::string_view text, RunRecord& record, std::string& reason);
+
+/// `text` with state, reason, end, counts and totals replaced by those of `record`; a document of its own if
+/// `text` is no JSON.
+std::string finished_run_json(std::string_view text, const RunRecord& record, const RunEnd& end);
+
+/// Now, in UTC, ISO 8601 to the second.
+std::string utc_now();
+
+/// Replaces `path` with `text`: written beside it, then renamed. False and a reason on failure.
+bool replace_file(const std::string& path, std::string_view text, std::string& reason);
+
+}  // namespace tilepress

@@ -1,0 +1,245 @@
+// Run reader: CSV columns by name into statistics, and the repair of a run whose program was killed.
+#include "tilepress/run_reader.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <map>
+
+#include "run/csv_reader.h"
+#include "run/run_json.h"
+
+namespace tilepress {
+namespace {
+
+using FrameKey = std::pair<uint64_t, uint64_t>;  // surface, frame
+
+bool read_text(const std::string& path, std::string& text, std::string& reason) {
+  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) {
+    reason = std::strerror(errno);
+    return false;
+  }
+  text.clear();
+  char buffer[1 << 16];
+  ssize_t got = 0;
+  while ((got = read(fd, buffer, sizeof buffer)) > 0 || (got < 0 && errno == EINTR))
+    if (got > 0) text.append(buffer, static_cast<size_t>(got));
+  if (got < 0) reason = std::strerror(errno);
+  close(fd);
+  return got == 0;
+}
+
+/// The records of one file, their fields found by column name.
+class Table {
+ public:
+  explicit Table(std::string_view text) : reader_(text) {
+    if (!reader_.next(header_)) return;
+    for (size_t i = 0; i < header_.size(); ++i) columns_[header_[i]] = i;
+  }
+  bool next() { return reader_.next(fields_); }
+  size_t offset() const { return reader_.offset(); }
+  /// What is wrong with the record, empty if nothing.
+  std::string fault() const {
+    return fault_.empty() ? "" : "record " + std::to_string(reader_.record()) + ": " + fault_;
+  }
+  bool has(const char* name) const { return columns_.count(name) > 0; }
+  const std::string& text(const char* name) {
+    static const std::string kNothing;
+    const auto column = columns_.find(name);
+    if (column == columns_.end() || column->second >= fields_.size()) {
+      fault_ = std::string("no field ") + name;
+      return kNothing;
+    }
+    return fields_[column->second];
+  }
+  template <typename T>
+  T number(const char* name) {
+    T value{};
+    const std::string& field = text(name);
+    const auto [end, code] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (code != std::errc() || end != field.data() + field.size())
+      fault_ = std::string(name) + " is no number";
+    return value;
+  }
+  template <typename T>
+  T number_or_zero(const char* name) {
+    return has(name) && !text(name).empty() ? number<T>(name) : T{};
+  }
+
+ private:
+  CsvReader reader_;
+  std::vector<std::string> header_, fields_;
+  std::map<std::string, size_t, std::less<>> columns_;
+  std::string fault_;
+};
+
+bool is_true(const std::string& field) {
+  return field == "1" || field == "true";
+}
+
+std::optional<PixelFormat> format_of(const std::string& name) {
+  for (size_t i = 0; i < std::size(kFormatTraits); ++i)
+    if (kFormatTraits[i].name == name) return static_cast<PixelFormat>(i);
+  return std::nullopt;
+}
+
+/// Both files as far as they are complete.
+struct Tables {
+  std::string frames_text, schemes_text;
+  size_t frames_end = 0, schemes_end = 0;  ///< bytes that belong to complete frames
+};
+
+bool read_frames(Tables& tables, RunRecord& out, std::string& error) {
+  Table table(tables.frames_text);
+  tables.frames_end = table.offset();
+  while (table.next()) {
+    FrameStatistics frame;
+    frame.frame = table.number<uint64_t>("frame");
+    frame.surface = table.number<uint32_t>("surface");
+    frame.width = table.number<uint32_t>("width");
+    frame.height = table.number<uint32_t>("height");
+    const auto format = format_of(table.text("format"));
+    frame.warmup = is_true(table.text("warmup"));
+    frame.time_ns = table.number<uint64_t>("time_ns");
+    frame.metrics.unique_colors = table.number<uint64_t>("unique_colors");
+    frame.metrics.entropy = table.number<double>("entropy");
+    frame.metrics.pixel_change = table.number<double>("pixel_change");
+    frame.metrics.color_change = table.number<double>("color_change");
+    frame.metrics.fvc_coverage = table.number<double>("fvc_coverage");
+    frame.metrics.fvc_relative_coverage = table.number<double>("fvc_relative_coverage");
+    frame.metrics.top100_coverage = table.number<double>("top100_coverage");
+    frame.readback_ns = table.number<uint64_t>("readback_ns");
+    frame.encode_ns = table.number<uint64_t>("encode_ns");
+    std::string fault = table.fault();
+    if (fault.empty() && !format) fault = "unknown format " + table.text("format");
+    if (!fault.empty()) {
+      error = out.path + "/frames.csv: " + fault;
+      return false;
+    }
+    frame.format = *format;
+    out.frames.push_back(std::move(frame));
+    tables.frames_end = table.offset();
+  }
+  return true;
+}
+
+bool read_schemes(Tables& tables, RunRecord& out, std::string& error) {
+  std::map<FrameKey, size_t> frame_index;
+  for (size_t i = 0; i < out.frames.size(); ++i)
+    frame_index[{out.frames[i].surface, out.frames[i].frame}] = i;
+  std::map<std::string, size_t> scheme_index;
+  for (size_t i = 0; i < out.scheme_names.size(); ++i) scheme_index[out.scheme_names[i]] = i;
+
+  Table table(tables.schemes_text);
+  tables.schemes_end = table.offset();
+  while (table.next()) {
+    SchemeStatistics row;
+    const auto frame = frame_index.find({table.number<uint64_t>("surface"), table.number<uint64_t>("frame")});
+    const std::string name = table.text("scheme");
+    row.blocks = table.number<uint64_t>("blocks");
+    row.raw_bits = table.number<uint64_t>("raw_bits");
+    row.payload_bits = table.number<uint64_t>("payload_bits");
+    row.bursts = table.number<uint64_t>("bursts");
+    row.burst_bits = out.burst_bits;
+    row.csb_bits = table.number<uint64_t>("csb_bits");
+    row.palette_bits = table.number<uint64_t>("palette_bits");
+    row.extra_bits = table.number_or_zero<uint64_t>("extra_bits");
+    row.vdcp_blocks = table.number_or_zero<uint64_t>("vdcp_blocks");
+    row.ras_blocks = table.number_or_zero<uint64_t>("ras_blocks");
+    row.checked_blocks = table.number_or_zero<uint64_t>("checked_blocks");
+    row.mismatched_blocks = table.number_or_zero<uint64_t>("mismatched_blocks");
+    if (const std::string fault = table.fault(); !fault.empty()) {
+      error = out.path + "/schemes.csv: " + fault;
+      return false;
+    }
+    if (frame == frame_index.end()) continue;
+    tables.schemes_end = table.offset();
+    const auto [position, added] = scheme_index.try_emplace(name, out.scheme_names.size());
+    if (added) out.scheme_names.push_back(name);
+    FrameStatistics& owner = out.frames[frame->second];
+    if (owner.schemes.size() <= position->second) owner.schemes.resize(position->second + 1);
+    owner.schemes[position->second] = row;
+  }
+  return true;
+}
+
+bool read_tables(const std::string& path, RunRecord& out, Tables& tables, std::string& error) {
+  out = RunRecord{};
+  out.path = path;
+  if (!holds_run(path)) {
+    error = path + ": holds no run";
+    return false;
+  }
+  std::string json, reason;
+  if (read_text(path + "/run.json", json, reason) && !read_run_json(json, out, reason)) {
+    error = path + "/run.json: " + reason;
+    return false;
+  }
+  for (const char* name : {"frames.csv", "schemes.csv"}) {
+    std::string& text = std::strcmp(name, "frames.csv") == 0 ? tables.frames_text : tables.schemes_text;
+    if (!read_text(path + "/" + name, text, reason)) {
+      error = path + "/" + name + ": " + reason;
+      return false;
+    }
+  }
+  if (!read_frames(tables, out, error) || !read_schemes(tables, out, error)) return false;
+
+  out.totals.assign(out.scheme_names.size(), SchemeStatistics{});
+  for (SchemeStatistics& total : out.totals) total.burst_bits = out.burst_bits;
+  for (FrameStatistics& frame : out.frames) {
+    frame.schemes.resize(out.scheme_names.size());
+    if (frame.warmup) continue;
+    ++out.measured_frames;
+    for (size_t i = 0; i < frame.schemes.size(); ++i) out.totals[i] += frame.schemes[i];
+  }
+  return true;
+}
+
+bool cut_file(const std::string& path, const std::string& text, size_t end, std::string& error) {
+  if (end >= text.size() || truncate(path.c_str(), static_cast<off_t>(end)) == 0) return true;
+  error = path + ": " + std::strerror(errno);
+  return false;
+}
+
+}  // namespace
+
+bool holds_run(const std::string& path) {
+  for (const char* name : {"frames.csv", "schemes.csv", "run.json"}) {
+    std::error_code code;
+    if (std::filesystem::exists(path + "/" + name, code)) return true;
+  }
+  return false;
+}
+
+bool read_run(const std::string& path, RunRecord& out, std::string& error) {
+  Tables tables;
+  return read_tables(path, out, tables, error);
+}
+
+bool close_run(const std::string& path, const RunEnd& end, RunRecord& record, std::string& error) {
+  Tables tables;
+  if (!read_tables(path, record, tables, error)) return false;
+  if (!cut_file(path + "/frames.csv", tables.frames_text, tables.frames_end, error)) return false;
+  if (!cut_file(path + "/schemes.csv", tables.schemes_text, tables.schemes_end, error)) return false;
+  if (record.state != "failed") {
+    record.state = end.state;
+    record.reason = end.reason;
+  }
+  RunCounts& counts = record.counts;
+  counts.captured = record.frames.size();
+  counts.seen = std::max(counts.seen, counts.captured + counts.dropped + counts.skipped + counts.unsupported +
+                                          counts.not_captured);
+  std::string json, reason;
+  read_text(path + "/run.json", json, reason);
+  if (replace_file(path + "/run.json", finished_run_json(json, record, end), reason)) return true;
+  error = path + "/run.json: " + reason;
+  return false;
+}
+
+}  // namespace tilepress

@@ -1,0 +1,85 @@
+// The tilepress command: finds the verb in one table and hands over.
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include "command_line.h"
+#include "verb.h"
+
+namespace tilepress {
+namespace {
+
+constexpr Verb kVerbs[] = {
+    {"schemes", "list the schemes and their options", verb_schemes},
+    {"doctor", "tell what this machine offers and what is missing", verb_doctor},
+};
+
+constexpr const char* kHeadText =
+    "tilepress: framebuffer compression statistics of running GL programs, frame by frame.\n"
+    "\n"
+    "Usage: tilepress VERB [options] ...\n"
+    "\n"
+    "Verbs:\n";
+
+constexpr const char* kTailText =
+    "  help       show this, or with a verb: the verb's options\n"
+    "\n"
+    "Examples:\n"
+    "  tilepress run -o out -- glmark2-es2 -b desktop        capture a program, all schemes\n"
+    "  tilepress run -s vdcp -s vdcp:fvc=128 -- glxgears     two configurations side by side\n"
+    "  tilepress run --frames 100-199 --verify -- ./game     some frames, proven lossless\n"
+    "  tilepress frames -o out shots/*.png                   a sequence of images\n"
+    "  tilepress frames -o - shots/*.png | head              its rows on standard output\n"
+    "\n"
+    "A run leaves frames.csv, schemes.csv and run.json in its folder; a summary goes to standard error.\n"
+    "Exit status: 0 done, 1 a check or an input failed, 2 usage, 3 nothing captured; `run` passes on the\n"
+    "program's own (128+n for a signal), or 125 tilepress failed, 126 not executable, 127 not found.\n";
+
+const Verb* find_verb(const char* name) {
+  for (const Verb& verb : kVerbs)
+    if (std::strcmp(verb.name, name) == 0) return &verb;
+  return nullptr;
+}
+
+int show_help() {
+  std::fputs(kHeadText, stdout);
+  for (const Verb& verb : kVerbs) std::printf("  %-10s %s\n", verb.name, verb.synopsis);
+  std::fputs(kTailText, stdout);
+  return kExitDone;
+}
+
+int dispatch(int argc, char** argv) {
+  if (argc < 2) return fail(kExitUsage, "no verb given (see tilepress help)");
+  const std::string word = argv[1];
+  if (word == "--version" || word == "version") {
+    std::printf("tilepress %s\n", TILEPRESS_VERSION);
+    return kExitDone;
+  }
+  if (word == "--help" || word == "-h" || (word == "help" && argc == 2)) return show_help();
+  if (word == "help") {
+    const Verb* verb = find_verb(argv[2]);
+    if (verb == nullptr)
+      return fail(kExitUsage, std::string("unknown verb '") + argv[2] + "' (see tilepress help)");
+    char help[] = "--help";
+    char* help_argv[] = {argv[2], help, nullptr};
+    return verb->run(2, help_argv);
+  }
+  const Verb* verb = find_verb(word.c_str());
+  if (verb == nullptr) {
+    const char* kind = word.starts_with("-") ? "unknown option '" : "unknown verb '";
+    return fail(kExitUsage, kind + word + "' (see tilepress help)");
+  }
+  return verb->run(argc - 1, argv + 1);
+}
+
+}  // namespace
+}  // namespace tilepress
+
+int main(int argc, char** argv) {
+  // Nothing is thrown on purpose past a verb; what a library throws still ends in one line.
+  try {
+    return tilepress::dispatch(argc, argv);
+  } catch (const std::exception& error) {
+    return tilepress::fail(tilepress::kExitFailed, error.what());
+  }
+}

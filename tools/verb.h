@@ -1,0 +1,18 @@
+// Verb: one sub-command of tilepress, and the functions behind all of them.
+#pragma once
+
+namespace tilepress {
+
+/// One line of the command's table. `run` gets argv with the verb's name at [0] and returns the exit status.
+struct Verb {
+  const char* name;
+  const char* synopsis;  ///< one line for `tilepress help`
+  int (*run)(int argc, char** argv);
+};
+
+int verb_doctor(int argc, char** argv);
+int verb_frames(int argc, char** argv);
+int verb_run(int argc, char** argv);
+int verb_schemes(int argc, char** argv);
+
+}  // namespace tilepress
