@@ -21,9 +21,9 @@ constexpr uint16_t kNotInCcd = 0xFFFF;
 
 /// What a scheme may know when a frame begins.
 struct FrameContext {
-  const PixelPlane& plane;            ///< the frame
-  uint64_t ordinal = 0;               ///< 0 = first frame of the surface
-  const Ccd* ccd = nullptr;           ///< CCD in force for the scheme's FVC configuration; null while none exists
+  const PixelPlane& plane;   ///< the frame
+  uint64_t ordinal = 0;      ///< 0 = first frame of the surface
+  const Ccd* ccd = nullptr;  ///< CCD in force for the scheme's FVC configuration; null while none exists
 };
 
 /// One block and what the engine has already found out about it for all schemes.
@@ -66,11 +66,9 @@ class BlockEncoder {
 class BlockDecoder {
  public:
   virtual ~BlockDecoder() = default;
-  /// Takes the tables of a frame, `bits` long (0 = the frame has none). False: not a valid table.
-  virtual bool read_tables(BitReader& in, uint64_t bits) = 0;
-  /// CSB bits of each block of a frame with these tables.
-  virtual uint32_t csb_bits() const = 0;
-  /// Payload bits of a block, from its CSB alone where the CSB tells; otherwise the most it can have.
+  /// Takes the tables of a frame, `table_bits` long (0 = the frame has none), whose blocks have `csb_bits`
+  /// CSB bits each. False: no encoder writes such tables.
+  virtual bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) = 0;
   /// Restores one block. False: the bits are not what any encoder writes.
   virtual bool decode(BitReader& csb, BitReader& payload, Block& out) const = 0;
 };
@@ -78,11 +76,11 @@ class BlockDecoder {
 /// One line of the registry: everything users are told about a scheme comes from here.
 struct SchemeInfo {
   const char* name;
-  const char* label;        ///< for reports
-  const char* summary;      ///< one sentence
-  const char* source;       ///< paper section or publication
-  bool takes_fvc_keys;      ///< fvc, policy, ways, sample, period, coverage
-  bool takes_ras_keys;      ///< ycocg, sizes
+  const char* label;    ///< for reports
+  const char* summary;  ///< one sentence
+  const char* source;   ///< paper section or publication
+  bool takes_fvc_keys;  ///< fvc, policy, ways, sample, period, coverage
+  bool takes_ras_keys;  ///< ycocg, sizes
   std::unique_ptr<BlockEncoder> (*make_encoder)(const SchemeSpec&, const FormatTraits&, const ModelOptions&);
   std::unique_ptr<BlockDecoder> (*make_decoder)(const SchemeSpec&, const FormatTraits&, const ModelOptions&);
 };

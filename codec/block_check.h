@@ -1,0 +1,50 @@
+// Block check: encodes a block, decodes it from the bits alone and compares (--verify).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tilepress/scheme.h"
+
+namespace tilepress {
+
+/// Buffers for round trips; re-used from block to block.
+class BlockCheck {
+ public:
+  /// Hands the frame's tables from encoder to decoder as bits. False: the decoder refused them, or their
+  /// number differs from what the encoder reports.
+  bool begin_frame(const BlockEncoder& encoder, BlockDecoder& decoder) {
+    tables_.assign((encoder.palette_bits() + 7) / 8, 0);
+    BitWriter writer(tables_);
+    encoder.write_tables(writer);
+    writer.flush();
+    if (writer.bit_count() != encoder.palette_bits()) return false;
+    BitReader reader(tables_, writer.bit_count());
+    return decoder.begin_frame(reader, writer.bit_count(), encoder.csb_bits());
+  }
+
+  /// True if the block comes back, and exactly `payload_bits` and csb_bits() bits were written and read.
+  bool round_trip(const BlockEncoder& encoder, const BlockDecoder& decoder, const BlockContext& block,
+                  uint32_t payload_bits) {
+    BitWriter payload(payload_), csb(csb_);
+    encoder.encode(block, payload, csb);
+    payload.flush();
+    csb.flush();
+    if (payload.bit_count() != payload_bits || csb.bit_count() != encoder.csb_bits() ||
+        payload.overflowed() || csb.overflowed())
+      return false;
+    BitReader payload_in(payload_, payload_bits), csb_in(csb_, csb.bit_count());
+    Block decoded;
+    decoded.pixels.fill(0xDEADBEEF);  // nothing of a block decoded before may look right
+    return decoder.decode(csb_in, payload_in, decoded) && decoded == block.block &&
+           payload_in.position() == payload_bits;
+  }
+
+ private:
+  std::array<uint8_t, kMaxRawBlockBits / 8> payload_{};
+  std::array<uint8_t, 16> csb_{};
+  std::vector<uint8_t> tables_;
+};
+
+}  // namespace tilepress

@@ -1,0 +1,31 @@
+// Algorithm 1: predicts the CCD size that moves the fewest bits (paper §Adaptive DCP; spec §5).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+namespace tilepress {
+
+/// `counts` are the FVC counts in descending order, `frame_pixels` the pixels sampled, `max_width` = log2 N.
+/// Returns i, the CCD having 2^i entries; 0 if nothing helps. The loop runs i = 0 … log2 N, one step more
+/// than the paper's text says.
+inline uint32_t optimal_width(std::span<const uint32_t> counts, uint64_t frame_pixels, uint32_t max_width,
+                              uint32_t pixel_bits) {
+  uint64_t expected_bits = frame_pixels * pixel_bits;
+  uint32_t best = 0;
+  uint64_t sum = 0;
+  size_t summed = 0;
+  for (uint32_t i = 0; i <= max_width; ++i) {
+    for (const size_t end = std::min<size_t>(size_t{1} << i, counts.size()); summed < end; ++summed)
+      sum += counts[summed];
+    const uint64_t bits = sum * i + (frame_pixels - sum) * pixel_bits;
+    if (bits < expected_bits) {
+      expected_bits = bits;
+      best = i;
+    }
+  }
+  return best;
+}
+
+}  // namespace tilepress

@@ -1,0 +1,61 @@
+// Common Colors Dictionary: the colours an FVC held at a frame's end, most frequent first (paper §The CCD;
+// spec §4).
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "tilepress/bit_io.h"
+#include "tilepress/block.h"
+#include "tilepress/scheme.h"
+
+namespace tilepress {
+
+class Fvc;
+
+/// Built from the FVC of an earlier frame; index 0 is the most frequent colour.
+struct Ccd {
+  uint32_t entries = 0;          ///< slots N = those of the FVC; colors may be fewer
+  std::vector<uint32_t> colors;  ///< by index
+  std::vector<uint32_t> counts;  ///< FVC counts, descending
+  uint64_t samples = 0;          ///< pixels that entered the FVC
+  double coverage = 0;           ///< FVC coverage of the frame it came from
+
+  uint32_t index_bits() const { return static_cast<uint32_t>(std::bit_width(entries) - 1); }  ///< M = log2 N
+  void build(const Fvc& fvc);
+};
+
+/// Finds colours in a CCD: an open-addressed table, so that a lookup costs the same whatever N is.
+class CcdLookup {
+ public:
+  void build(const Ccd& ccd);
+  /// CCD index of the colour, kNotInCcd if it has none.
+  uint16_t find(uint32_t color) const {
+    for (uint32_t at = hash(color);; at = (at + 1) & mask_)
+      if (indices_[at] == kNotInCcd || colors_[at] == color) return indices_[at];
+  }
+  /// All pixels of a block, by raster position.
+  void find_block(const Block& block, std::array<uint16_t, kBlockPixels>& indices) const;
+
+ private:
+  uint32_t hash(uint32_t color) const { return (color * 0x9E3779B1u) >> shift_; }
+  uint32_t mask_ = 0, shift_ = 31;
+  std::vector<uint32_t> colors_;
+  std::vector<uint16_t> indices_;
+};
+
+/// The reversed dictionary that travels with a compressed surface: slots of a valid bit and a colour, so
+/// (pixel bits + 1) bits each, 33 for 32-bit pixels.
+struct Rccd {
+  uint32_t slots = 0;
+  std::vector<uint32_t> colors;  ///< by index; the valid ones
+
+  /// Writes the first `slots` entries of `ccd`.
+  static void write(const Ccd& ccd, uint32_t slots, uint32_t pixel_bits, BitWriter& out);
+  /// False if the number of slots is not a power of two up to 1024, or a valid slot follows an invalid one.
+  bool read(BitReader& in, uint64_t slot_count, uint32_t pixel_bits);
+};
+
+}  // namespace tilepress

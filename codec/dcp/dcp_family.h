@@ -1,0 +1,70 @@
+// What the schemes of the DCP family share: the CCD in force, dynamic enabling, the rCCD.
+#pragma once
+
+#include <bit>
+
+#include "dcp/ccd.h"
+#include "raw_bits.h"
+#include "tilepress/scheme.h"
+
+namespace tilepress {
+
+/// Largest CCD index of a sub-block; kNotInCcd if a pixel has none.
+inline uint16_t largest_index(const uint16_t* indices, uint32_t sub) {
+  const uint16_t* top = indices + sub_block_pixel(sub, 0);
+  const uint16_t a = top[0] > top[1] ? top[0] : top[1];
+  const uint16_t b = top[kBlockSide] > top[kBlockSide + 1] ? top[kBlockSide] : top[kBlockSide + 1];
+  return a > b ? a : b;
+}
+
+/// Encoder base: knows the CCD of the frame and whether the coverage threshold switches the scheme off
+/// (paper §Dynamically Enabling DCP).
+class DcpFamilyEncoder : public BlockEncoder {
+ public:
+  DcpFamilyEncoder(const SchemeSpec& spec, const FormatTraits& format)
+      : coverage_threshold_(spec.coverage),
+        index_bits_(static_cast<uint32_t>(std::bit_width(spec.fvc.entries) - 1)),
+        pixel_bits_(format.pixel_bits) {}
+  SchemeNeeds needs() const override { return {.ccd = true}; }
+  void begin_frame(const FrameContext& frame) override {
+    ccd_ = frame.ccd;
+    off_ = ccd_ != nullptr && ccd_->coverage < coverage_threshold_;
+  }
+
+ protected:
+  /// True if sub-blocks may be looked up: there is a CCD and the scheme is on.
+  bool active() const { return ccd_ != nullptr && !off_; }
+  uint32_t raw_sub_block_bits() const { return kSubBlockPixels * pixel_bits_; }
+  uint32_t raw_block_bits() const { return kBlockPixels * pixel_bits_; }
+
+  const double coverage_threshold_;
+  const uint32_t index_bits_;  ///< M = log2 N
+  const uint32_t pixel_bits_;
+  const Ccd* ccd_ = nullptr;
+  bool off_ = false;
+};
+
+/// Decoder base: an rCCD of (pixel bits + 1) bits a slot; csb_bits = 0 marks a frame the scheme was off for.
+class DcpFamilyDecoder : public BlockDecoder {
+ public:
+  DcpFamilyDecoder(const SchemeSpec& spec, const FormatTraits& format)
+      : index_bits_(static_cast<uint32_t>(std::bit_width(spec.fvc.entries) - 1)),
+        pixel_bits_(format.pixel_bits) {}
+  bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override;
+
+ protected:
+  /// CSB bits a block has when the scheme is on.
+  virtual uint32_t on_csb_bits() const = 0;
+  /// Colour of an index; false if the rCCD has no such entry.
+  bool color_of(uint64_t index, uint32_t& color) const {
+    if (index >= rccd_.colors.size()) return false;
+    color = rccd_.colors[index];
+    return true;
+  }
+  const uint32_t index_bits_;
+  const uint32_t pixel_bits_;
+  Rccd rccd_;
+  bool off_ = false;
+};
+
+}  // namespace tilepress

@@ -1,0 +1,53 @@
+// Frequent Values Collector: a small associative memory that counts colours (paper §The FVC; spec §3).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tilepress/pixel_format.h"
+#include "tilepress/scheme_spec.h"
+
+namespace tilepress {
+
+/// The definition of an FVC: plain scans, every rule visible.
+class Fvc {
+ public:
+  Fvc(const FvcConfig& config, const FormatTraits& format);
+
+  /// Empties it, as at the start of each frame it collects in.
+  void reset();
+  /// The next pixel of the frame inside the surface, in traversal order; counts it if it is a sampled one.
+  void see(uint32_t color) {
+    if (--until_sample_ == 0) {
+      until_sample_ = config_.sample;
+      collect(color);
+    }
+  }
+
+  const FvcConfig& config() const { return config_; }
+  uint32_t slots() const { return config_.entries; }
+  bool valid(uint32_t slot) const { return counts_[slot] != 0; }
+  uint32_t color(uint32_t slot) const { return colors_[slot]; }
+  uint32_t count(uint32_t slot) const { return counts_[slot]; }
+  /// Pixels that entered since reset().
+  uint64_t samples() const { return samples_; }
+  /// Sum of the counts of the colours held.
+  uint64_t held() const;
+  double coverage() const { return samples_ == 0 ? 0.0 : static_cast<double>(held()) / samples_; }
+
+ private:
+  void collect(uint32_t color);
+  uint32_t first_slot(uint32_t color) const;
+  uint32_t victim(uint32_t first);
+
+  FvcConfig config_;
+  FormatTraits format_;
+  uint32_t ways_, sets_;
+  uint32_t until_sample_ = 1;
+  uint32_t random_ = 0;
+  uint64_t samples_ = 0;
+  std::vector<uint32_t> colors_, counts_;
+  std::vector<uint64_t> touched_;  ///< sample number of the last hit or insertion, for lru
+};
+
+}  // namespace tilepress

@@ -1,0 +1,39 @@
+// Huffman codes over a CCD: lengths by the rule of spec §5, canonical codes, decoding bit by bit.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tilepress/bit_io.h"
+
+namespace tilepress {
+
+/// Longest code there can be: counts below 2^32 force a depth under 47 (a depth d needs counts that sum to at
+/// least the d-th Fibonacci number). A stored length takes 6 bits.
+constexpr uint32_t kMaxHuffmanLength = 47;
+
+/// Code lengths by CCD index. Joins repeatedly the two nodes of smallest (count, id), the new node taking the
+/// next id; one colour alone gets 1 bit.
+std::vector<uint8_t> huffman_lengths(std::span<const uint32_t> counts);
+
+/// Canonical code: shorter codes first, equal lengths by CCD index.
+class CanonicalCode {
+ public:
+  /// False if the lengths do not form a prefix code (or a length is over kMaxHuffmanLength).
+  bool assign(std::span<const uint8_t> lengths);
+  uint64_t code(uint32_t index) const { return codes_[index]; }
+  uint32_t length(uint32_t index) const { return lengths_[index]; }
+  /// Reads one symbol. False: no code starts with these bits.
+  bool read(BitReader& in, uint32_t& index) const;
+
+ private:
+  std::vector<uint8_t> lengths_;
+  std::vector<uint64_t> codes_;
+  std::vector<uint16_t> ordered_;  ///< indices by (length, index)
+  std::array<uint64_t, kMaxHuffmanLength + 1> first_code_{};
+  std::array<uint32_t, kMaxHuffmanLength + 1> first_rank_{}, count_{};
+};
+
+}  // namespace tilepress

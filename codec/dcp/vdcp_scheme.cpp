@@ -1,0 +1,73 @@
+// VDCP: index width chosen per sub-block (paper §Variable DCP; spec §5).
+//
+//   CSB       16 × ceil(log2(M+2)) bits: the width w of the sub-block's indices, all ones = raw
+//   payload   per sub-block: compressed  4 × w bits of CCD index (w = 0: nothing)
+//                            raw         4 × pixel bits
+//   tables    N rCCD slots
+#include "dcp/vdcp.h"
+#include "scheme_factory.h"
+
+namespace tilepress {
+namespace {
+
+/// ceil(log2(M + 2)): widths 0 … M and the raw mark.
+uint32_t csb_width(uint32_t index_bits) {
+  return static_cast<uint32_t>(std::bit_width(index_bits + 1));
+}
+
+class VdcpEncoder final : public DcpFamilyEncoder {
+ public:
+  VdcpEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions&)
+      : DcpFamilyEncoder(spec, format) {}
+
+  uint32_t csb_bits() const override { return off_ ? 0 : kSubBlocks * csb_width(index_bits_); }
+  uint64_t palette_bits() const override {
+    return active() ? uint64_t{ccd_->entries} * (pixel_bits_ + 1) : 0;
+  }
+  void write_tables(BitWriter& out) const override {
+    if (active()) Rccd::write(*ccd_, ccd_->entries, pixel_bits_, out);
+  }
+  uint32_t measure(const BlockContext& block) const override {
+    return active() ? vdcp_measure(block.ccd_indices, pixel_bits_) : raw_block_bits();
+  }
+  void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
+    if (off_) return write_raw_block(block.block, pixel_bits_, payload);
+    const uint32_t width = csb_width(index_bits_);
+    vdcp_encode(block.block, active() ? block.ccd_indices : nullptr, pixel_bits_, width, (1u << width) - 1,
+                payload, csb);
+  }
+};
+
+class VdcpDecoder final : public DcpFamilyDecoder {
+ public:
+  VdcpDecoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions&)
+      : DcpFamilyDecoder(spec, format) {}
+
+  bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
+    const uint32_t csb_bits = csb_width(index_bits_), raw_mark = (1u << csb_bits) - 1;
+    for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+      const auto width = off_ ? raw_mark : static_cast<uint32_t>(csb.get(csb_bits));
+      if (width == raw_mark)
+        read_raw_sub_block(payload, sub, pixel_bits_, out);
+      else if (width > index_bits_ || !vdcp_decode_sub_block(rccd_, width, sub, payload, out))
+        return false;
+    }
+    return !csb.overran() && !payload.overran();
+  }
+
+ protected:
+  uint32_t on_csb_bits() const override { return kSubBlocks * csb_width(index_bits_); }
+};
+
+}  // namespace
+
+const SchemeInfo kVdcpInfo = {"vdcp",
+                              "VDCP",
+                              "palette indices of a width chosen per sub-block, recorded in the CSB",
+                              "Gubran et al., Variable DCP",
+                              true,
+                              false,
+                              make_encoder<VdcpEncoder>,
+                              make_decoder<VdcpDecoder>};
+
+}  // namespace tilepress

@@ -1,0 +1,124 @@
+// HDCP: per block the one of VDCP and RAS that takes fewer bursts (paper §Hybrid Schemes; spec §5).
+//
+//   CSB       16 × 5 bits. Block coded by VDCP: per sub-block its width 0 … M, or 31 = raw sub-block.
+//             Block coded by RAS: 16 + class in every sub-block, so that each tells how to read the block.
+//   payload   of the scheme chosen
+//   tables    N rCCD slots
+// Where the coverage threshold switches DCP off, the frame is a frame of RAS: 2 CSB bits a block, no tables.
+#include "dcp/vdcp.h"
+#include "ras/ras_block.h"
+#include "scheme_factory.h"
+
+namespace tilepress {
+namespace {
+
+constexpr uint32_t kSubBlockCsbBits = 5;
+constexpr uint32_t kRawMark = 31;
+constexpr uint32_t kRasMark = 16;
+
+class HdcpEncoder final : public DcpFamilyEncoder {
+ public:
+  HdcpEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions& model)
+      : DcpFamilyEncoder(spec, format),
+        format_(format),
+        classes_{RasSizes::kThree, kBlockPixels * format.pixel_bits, model.burst_bits} {}
+
+  SchemeNeeds needs() const override { return {.ccd = true, .ras = true}; }
+  uint32_t csb_bits() const override { return off_ ? classes_.csb_bits() : kSubBlocks * kSubBlockCsbBits; }
+  uint64_t palette_bits() const override {
+    return active() ? uint64_t{ccd_->entries} * (pixel_bits_ + 1) : 0;
+  }
+  void write_tables(BitWriter& out) const override {
+    if (active()) Rccd::write(*ccd_, ccd_->entries, pixel_bits_, out);
+  }
+  uint32_t measure(const BlockContext& block) const override { return choose(block).bits; }
+  void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
+    const uint32_t cls = classes_.class_of(block.ras_bits);
+    if (choose(block).vdcp)
+      return vdcp_encode(block.block, active() ? block.ccd_indices : nullptr, pixel_bits_, kSubBlockCsbBits,
+                         kRawMark, payload, csb);
+    if (off_)
+      csb.put(cls, classes_.csb_bits());
+    else
+      for (uint32_t sub = 0; sub < kSubBlocks; ++sub) csb.put(kRasMark + cls, kSubBlockCsbBits);
+    ras_block_write(block.block, cls, classes_, format_, false, payload);
+  }
+  void account(const BlockContext& block, uint32_t, SchemeStatistics& statistics) const override {
+    const bool vdcp = choose(block).vdcp;
+    statistics.vdcp_blocks += vdcp;
+    statistics.ras_blocks += !vdcp;
+  }
+
+ private:
+  struct Choice {
+    bool vdcp;
+    uint32_t bits;
+  };
+  Choice choose(const BlockContext& block) const {
+    const uint32_t ras = classes_.bits_of(classes_.class_of(block.ras_bits));
+    if (off_) return {false, ras};
+    const uint32_t vdcp = active() ? vdcp_measure(block.ccd_indices, pixel_bits_) : raw_block_bits();
+    if (bursts(vdcp) <= bursts(ras)) return {true, vdcp};
+    return {false, ras};
+  }
+  uint32_t bursts(uint32_t bits) const { return (bits + classes_.burst_bits - 1) / classes_.burst_bits; }
+
+  const FormatTraits format_;
+  const RasClasses classes_;
+};
+
+class HdcpDecoder final : public DcpFamilyDecoder {
+ public:
+  HdcpDecoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions& model)
+      : DcpFamilyDecoder(spec, format),
+        format_(format),
+        classes_{RasSizes::kThree, kBlockPixels * format.pixel_bits, model.burst_bits} {}
+
+  bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override {
+    ras_only_ = csb_bits == classes_.csb_bits();
+    return ras_only_ ? table_bits == 0 : DcpFamilyDecoder::begin_frame(tables, table_bits, csb_bits);
+  }
+  bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
+    if (off_) return false;
+    if (ras_only_) {
+      const auto cls = static_cast<uint32_t>(csb.get(classes_.csb_bits()));
+      return !csb.overran() && ras_block_read(payload, cls, classes_, format_, false, out);
+    }
+    uint32_t marks[kSubBlocks];
+    for (uint32_t& mark : marks) mark = static_cast<uint32_t>(csb.get(kSubBlockCsbBits));
+    if (csb.overran()) return false;
+    if (marks[0] >= kRasMark && marks[0] != kRawMark) {
+      for (uint32_t mark : marks)
+        if (mark != marks[0]) return false;
+      return ras_block_read(payload, marks[0] - kRasMark, classes_, format_, false, out);
+    }
+    for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+      if (marks[sub] == kRawMark)
+        read_raw_sub_block(payload, sub, pixel_bits_, out);
+      else if (marks[sub] > index_bits_ || !vdcp_decode_sub_block(rccd_, marks[sub], sub, payload, out))
+        return false;
+    }
+    return !payload.overran();
+  }
+
+ protected:
+  uint32_t on_csb_bits() const override { return kSubBlocks * kSubBlockCsbBits; }
+
+ private:
+  const FormatTraits format_;
+  const RasClasses classes_;
+  bool ras_only_ = false;
+};
+
+}  // namespace
+
+const SchemeInfo kHdcpInfo = {"hdcp",
+                              "HDCP",
+                              "per block the one of VDCP and RAS with fewer bursts",
+                              "Gubran et al., Hybrid Schemes",
+                              true,
+                              false,
+                              make_encoder<HdcpEncoder>,
+                              make_decoder<HdcpDecoder>};
+
+}  // namespace tilepress

@@ -1,0 +1,33 @@
+// RAS block: a stream padded to its size class, or raw; shared by RAS and the hybrid.
+#pragma once
+
+#include "ras/ras_classes.h"
+#include "ras/ras_stream.h"
+#include "raw_bits.h"
+
+namespace tilepress {
+
+/// Writes classes.bits_of(cls) payload bits. `cls` is the class of the block's stream.
+inline void ras_block_write(const Block& block, uint32_t cls, const RasClasses& classes,
+                            const FormatTraits& format, bool ycocg, BitWriter& payload) {
+  if (cls == classes.raw_class()) return write_raw_block(block, format.pixel_bits, payload);
+  const uint64_t end = payload.bit_count() + classes.bits_of(cls);
+  ras_stream_write(block, format, ycocg, payload);
+  payload.pad_to(end);
+}
+
+/// Reads a block of a class taken from the CSB. False: no such class, or bits that no encoder writes.
+inline bool ras_block_read(BitReader& payload, uint32_t cls, const RasClasses& classes,
+                           const FormatTraits& format, bool ycocg, Block& out) {
+  if (!classes.valid(cls)) return false;
+  if (cls == classes.raw_class()) {
+    read_raw_block(payload, format.pixel_bits, out);
+    return !payload.overran();
+  }
+  const uint64_t end = payload.position() + classes.bits_of(cls);
+  if (!ras_stream_read(payload, format, ycocg, out) || payload.position() > end) return false;
+  payload.skip(end - payload.position());
+  return !payload.overran();
+}
+
+}  // namespace tilepress

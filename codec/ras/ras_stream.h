@@ -1,0 +1,39 @@
+// RAS stream: median-edge prediction and Golomb-Rice codes per colour plane (spec §6).
+//
+//   per plane                    first pixel, raw (plane bits wide)
+//   per plane, per 2×2 group     3 bits k; k = 7: all residuals zero, nothing follows; else per residual
+//                                (u >> k) one-bits, a zero-bit, the low k bits of u
+// Planes in the order R,G,B,A or Y,Co,Cg,A; absent channels have no plane. Groups in raster order; the group
+// of the first pixel has three residuals.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "tilepress/bit_io.h"
+#include "tilepress/block.h"
+#include "tilepress/pixel_format.h"
+
+namespace tilepress {
+
+constexpr uint32_t kRasZeroGroup = 7;  ///< the "special mode" of k
+constexpr uint32_t kRasLargestK = 6;
+
+/// Planes of a block: samples by raster position, and how wide a first pixel is stored.
+struct RasPlanes {
+  uint32_t count = 0;
+  std::array<std::array<int32_t, kBlockPixels>, 4> samples;
+  std::array<uint8_t, 4> first_bits{};  ///< bits of the plane's first pixel
+  std::array<bool, 4> is_signed{};      ///< Co and Cg: stored as two's complement
+};
+
+/// Splits a block into planes. Requires R, G and B; with `ycocg` applies the reversible YCoCg-R transform.
+void split_planes(const Block& block, const FormatTraits& format, bool ycocg, RasPlanes& planes);
+
+/// Bits of the stream, not rounded.
+uint32_t ras_stream_bits(const Block& block, const FormatTraits& format, bool ycocg);
+void ras_stream_write(const Block& block, const FormatTraits& format, bool ycocg, BitWriter& out);
+/// False: no encoder writes these bits.
+bool ras_stream_read(BitReader& in, const FormatTraits& format, bool ycocg, Block& out);
+
+}  // namespace tilepress

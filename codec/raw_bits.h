@@ -1,0 +1,34 @@
+// Raw pixels in a bit stream: what every scheme writes where it does not compress.
+#pragma once
+
+#include <cstdint>
+
+#include "tilepress/bit_io.h"
+#include "tilepress/block.h"
+
+namespace tilepress {
+
+/// Raster position of pixel `i` (0..3) of sub-block `sub` (0..15).
+constexpr uint32_t sub_block_pixel(uint32_t sub, uint32_t i) {
+  return kTraversal[sub * kSubBlockPixels + i];
+}
+
+inline void write_raw_sub_block(const Block& block, uint32_t sub, uint32_t pixel_bits, BitWriter& out) {
+  for (uint32_t i = 0; i < kSubBlockPixels; ++i) out.put(block.pixels[sub_block_pixel(sub, i)], pixel_bits);
+}
+
+inline void read_raw_sub_block(BitReader& in, uint32_t sub, uint32_t pixel_bits, Block& block) {
+  for (uint32_t i = 0; i < kSubBlockPixels; ++i)
+    block.pixels[sub_block_pixel(sub, i)] = static_cast<uint32_t>(in.get(pixel_bits));
+}
+
+/// A raw block is its sixteen raw sub-blocks in order.
+inline void write_raw_block(const Block& block, uint32_t pixel_bits, BitWriter& out) {
+  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) write_raw_sub_block(block, sub, pixel_bits, out);
+}
+
+inline void read_raw_block(BitReader& in, uint32_t pixel_bits, Block& block) {
+  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) read_raw_sub_block(in, sub, pixel_bits, block);
+}
+
+}  // namespace tilepress

@@ -1,0 +1,101 @@
+// RED: uniform 4×2 or 2×2 regions, decided for the whole block (paper §Surface compression techniques; spec
+// §5).
+//
+//   CSB       2 bits: 0 = eight 4×2 regions, 1 = sixteen 2×2 regions, 2 = raw
+//   payload   one colour per region, regions in raster order; or 64 raw pixels
+//   tables    none
+#include "raw_bits.h"
+#include "scheme_factory.h"
+
+namespace tilepress {
+namespace {
+
+enum RedMode : uint32_t { kRegions4x2 = 0, kRegions2x2 = 1, kRaw = 2 };
+
+uint32_t region_width(uint32_t mode) {
+  return mode == kRegions4x2 ? 4 : 2;
+}
+
+/// Are all regions of `width`×2 pixels uniform?
+bool uniform_regions(const Block& block, uint32_t width) {
+  for (uint32_t y = 0; y < kBlockSide; y += 2)
+    for (uint32_t x = 0; x < kBlockSide; ++x) {
+      const uint32_t first = block.pixels[8 * y + x / width * width];
+      if (block.pixels[8 * y + x] != first || block.pixels[8 * (y + 1) + x] != first) return false;
+    }
+  return true;
+}
+
+uint32_t red_mode(const Block& block) {
+  if (!uniform_regions(block, 2)) return kRaw;
+  return uniform_regions(block, 4) ? kRegions4x2 : kRegions2x2;
+}
+
+class RedEncoder final : public BlockEncoder {
+ public:
+  RedEncoder(const SchemeSpec&, const FormatTraits& format, const ModelOptions&)
+      : pixel_bits_(format.pixel_bits) {}
+
+  SchemeNeeds needs() const override { return {}; }
+  void begin_frame(const FrameContext&) override {}
+  uint32_t csb_bits() const override { return 2; }
+  uint64_t palette_bits() const override { return 0; }
+  void write_tables(BitWriter&) const override {}
+  uint32_t measure(const BlockContext& block) const override {
+    constexpr uint32_t kColors[] = {8, 16, 64};
+    return kColors[red_mode(block.block)] * pixel_bits_;
+  }
+  void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
+    const uint32_t mode = red_mode(block.block);
+    csb.put(mode, 2);
+    if (mode == kRaw) return write_raw_block(block.block, pixel_bits_, payload);
+    for (uint32_t y = 0; y < kBlockSide; y += 2)
+      for (uint32_t x = 0; x < kBlockSide; x += region_width(mode))
+        payload.put(block.block.pixels[8 * y + x], pixel_bits_);
+  }
+
+ private:
+  const uint32_t pixel_bits_;
+};
+
+class RedDecoder final : public BlockDecoder {
+ public:
+  RedDecoder(const SchemeSpec&, const FormatTraits& format, const ModelOptions&)
+      : pixel_bits_(format.pixel_bits) {}
+
+  bool begin_frame(BitReader&, uint64_t table_bits, uint32_t csb_bits) override {
+    return table_bits == 0 && csb_bits == 2;
+  }
+  bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
+    const auto mode = static_cast<uint32_t>(csb.get(2));
+    if (mode > kRaw) return false;
+    if (mode == kRaw) {
+      read_raw_block(payload, pixel_bits_, out);
+    } else {
+      const uint32_t width = region_width(mode);
+      for (uint32_t y = 0; y < kBlockSide; y += 2)
+        for (uint32_t x = 0; x < kBlockSide; x += width) {
+          const auto color = static_cast<uint32_t>(payload.get(pixel_bits_));
+          for (uint32_t i = 0; i < width; ++i)
+            out.pixels[8 * y + x + i] = out.pixels[8 * (y + 1) + x + i] = color;
+        }
+    }
+    return !csb.overran() && !payload.overran();
+  }
+
+ private:
+  const uint32_t pixel_bits_;
+};
+
+}  // namespace
+
+const SchemeInfo kRedInfo = {"red",
+                             "RED",
+                             "uniform 4x2 regions 8:1, else uniform 2x2 regions 4:1, else raw",
+                             "NVIDIA, as described in Gubran et al.",
+                             false,
+                             false,
+                             make_encoder<RedEncoder>,
+                             make_decoder<RedDecoder>};
+
+}  // namespace tilepress

@@ -1,0 +1,34 @@
+// Statistics: rates and sums.
+#include "tilepress/statistics.h"
+
+namespace tilepress {
+namespace {
+double ratio(uint64_t raw, uint64_t moved) {
+  return moved == 0 ? 0.0 : static_cast<double>(raw) / static_cast<double>(moved);
+}
+}  // namespace
+
+double SchemeStatistics::rate_payload() const {
+  return ratio(raw_bits, payload_bits + csb_bits);
+}
+double SchemeStatistics::rate() const {
+  return ratio(raw_bits, moved_bits());
+}
+
+SchemeStatistics& SchemeStatistics::operator+=(const SchemeStatistics& other) {
+  blocks += other.blocks;
+  raw_bits += other.raw_bits;
+  payload_bits += other.payload_bits;
+  bursts += other.bursts;
+  burst_bits = other.burst_bits;
+  csb_bits += other.csb_bits;
+  palette_bits += other.palette_bits;
+  extra_bits += other.extra_bits;
+  vdcp_blocks += other.vdcp_blocks;
+  ras_blocks += other.ras_blocks;
+  checked_blocks += other.checked_blocks;
+  mismatched_blocks += other.mismatched_blocks;
+  return *this;
+}
+
+}  // namespace tilepress
