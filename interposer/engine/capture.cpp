@@ -1,0 +1,175 @@
+// Capture: what happens to a frame between the hook and the worker.
+#include "interposer/engine/capture.h"
+
+#include <errno.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+namespace tilepress {
+namespace {
+
+uint64_t now_ns() {
+  timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<uint64_t>(now.tv_sec) * 1000000000u + static_cast<uint64_t>(now.tv_nsec);
+}
+
+std::vector<std::string> command_line() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> command;
+  for (std::string argument; std::getline(file, argument, '\0');) command.push_back(argument);
+  return command;
+}
+
+// Not program_invocation_short_name: programs rename themselves (a retracer takes its trace's name).
+std::string program_name() {
+  char path[4096];
+  const ssize_t length = readlink("/proc/self/exe", path, sizeof path);
+  std::string name(path, length > 0 ? static_cast<size_t>(length) : 0);
+  if (const auto deleted = name.find(" (deleted)"); deleted != std::string::npos) name.resize(deleted);
+  name.erase(0, name.rfind('/') + 1);
+  return name.empty() ? program_invocation_short_name : name;
+}
+
+constexpr uint32_t kNoWindow = ~0u;
+
+}  // namespace
+
+Capture::Capture(const TilepressHost& host) : host_(host), pid_(getpid()) {
+  std::string error;
+  enabled_ = from_environment(options_, error) && !options_.output.empty();
+  log_ = std::make_unique<ShimLog>(options_.log_file, options_.log_level);
+  if (!error.empty()) log_->write(LogLevel::kError, error);
+  start_ns_ = now_ns();
+}
+
+PresentSource* Capture::source_of(const TilepressPresent& present) {
+  std::lock_guard lock(mutex_);
+  for (const Source& known : sources_)
+    if (known.real == present.real) return known.source.get();
+  auto source = present.api == TILEPRESS_EGL ? make_egl_source(host_, present.real)
+                                             : make_glx_source(host_, present.real);
+  if (source == nullptr) log_->write(LogLevel::kError, "the GL library lacks functions to read frames back");
+  sources_.push_back({present.real, std::move(source)});
+  return sources_.back().source.get();
+}
+
+CaptureWorker* Capture::worker(const PresentSource& source) {
+  std::lock_guard lock(mutex_);
+  if (CaptureWorker* known = worker_) return known;
+  RunInfo info;
+  info.command = command_line();
+  info.program = program_name();
+  info.pid = pid_;
+  info.via = host_.via;
+  const GlStrings strings = source.strings();
+  info.gl_vendor = strings.vendor;
+  info.gl_renderer = strings.renderer;
+  info.gl_version = strings.version;
+  info.api = source.api();
+  auto* made = new CaptureWorker(options_, info, counts_, *log_);
+  if (!made->start()) {
+    log_->write(LogLevel::kError, "no thread to capture with");
+    enabled_ = false;
+  }
+  return worker_ = made;
+}
+
+void Capture::report(uint32_t surface, const std::string& reason) {
+  if (registry_.first_report(surface))
+    log_->write(LogLevel::kWarn, "surface " + std::to_string(surface) + ": " + reason);
+}
+
+Capture::Outcome Capture::take(TilepressPresent& present, PresentSource& source, uint32_t& window,
+                               CapturedFrame*& frame) {
+  const uint64_t begin_ns = now_ns();
+  WindowKey key{};
+  SurfaceShape shape;
+  std::string reason;
+  if (!source.describe(present, key, shape, reason)) {
+    log_->write(LogLevel::kDebug, reason);
+    return Outcome::kNotCaptured;
+  }
+  const SurfaceRegistry::Turn turn = registry_.turn(key, shape);
+  window = turn.window;
+  if (!options_.takes(turn.frame)) return Outcome::kSkipped;
+  if (!shape.format || !traits(*shape.format).modelled ||
+      std::max(shape.width, shape.height) > kMaxSurfaceSide) {
+    report(turn.surface, std::string("unsupported format") + (shape.format ? " " : "") +
+                             std::string(shape.format ? traits(*shape.format).name : ""));
+    return Outcome::kUnsupported;
+  }
+  const uint64_t wait_ns = now_ns();
+  frame = worker(source)->queue().acquire(options_.on_full == OnFull::kBlock);
+  if (frame == nullptr) return Outcome::kDropped;
+  const uint64_t waited_ns = now_ns() - wait_ns;
+  if (!source.read(present, shape, *frame, reason)) {
+    report(turn.surface, "not captured: " + reason);
+    worker(source)->queue().release(frame);
+    frame = nullptr;
+    return Outcome::kNotCaptured;
+  }
+  frame->window = turn.window;
+  frame->surface = turn.surface;
+  frame->frame = turn.frame;
+  frame->time_ns = begin_ns - start_ns_;
+  frame->readback_ns = now_ns() - begin_ns - waited_ns;
+  return Outcome::kTaken;
+}
+
+bool Capture::begin(TilepressPresent& present) {
+  const CaptureWorker* known = worker_;
+  if (!enabled_ || (known != nullptr && !known->alive())) return false;
+  PresentSource* source = source_of(present);
+  if (source == nullptr) return false;
+  uint32_t window = kNoWindow;
+  CapturedFrame* frame = nullptr;
+  const Outcome outcome = take(present, *source, window, frame);
+  worker(*source);
+  if (!enabled_) return false;
+  present.ticket[0] = reinterpret_cast<void*>(outcome);
+  present.ticket[1] = reinterpret_cast<void*>(uintptr_t{window});
+  present.ticket[2] = frame;
+  return true;
+}
+
+void Capture::end(TilepressPresent& present, bool presented) {
+  const auto outcome = static_cast<Outcome>(reinterpret_cast<uintptr_t>(present.ticket[0]));
+  const auto window = static_cast<uint32_t>(reinterpret_cast<uintptr_t>(present.ticket[1]));
+  auto* frame = static_cast<CapturedFrame*>(present.ticket[2]);
+  FrameQueue& queue = worker_.load()->queue();
+  if (!presented) {
+    if (frame != nullptr) queue.release(frame);
+    return;
+  }
+  ++counts_.seen;
+  if (window != kNoWindow) registry_.presented(window);
+  switch (outcome) {
+    case Outcome::kTaken:
+      return queue.submit(frame);
+    case Outcome::kSkipped:
+      ++counts_.skipped;
+      break;
+    case Outcome::kDropped:
+      ++counts_.dropped;
+      break;
+    case Outcome::kUnsupported:
+      ++counts_.unsupported;
+      break;
+    case Outcome::kNotCaptured:
+      ++counts_.not_captured;
+      break;
+  }
+  queue.wake();
+}
+
+void Capture::finish() {
+  if (CaptureWorker* known = worker_) known->finish();
+}
+
+}  // namespace tilepress

@@ -1,0 +1,53 @@
+// Capture: everything the shim knows in one process, from the first presenting call on.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "interposer/engine/capture_worker.h"
+#include "interposer/engine/present_source.h"
+#include "interposer/engine/shim_log.h"
+#include "interposer/engine/surface_registry.h"
+#include "tilepress/run_options.h"
+
+namespace tilepress {
+
+/// Belongs to one process id: a forked child makes its own and leaves the parent's alone, locks and all.
+class Capture {
+ public:
+  explicit Capture(const TilepressHost& host);
+  int64_t pid() const { return pid_; }
+
+  /// As TilepressEngine.begin and end.
+  bool begin(TilepressPresent& present);
+  void end(TilepressPresent& present, bool presented);
+  void finish();
+
+ private:
+  enum class Outcome : uintptr_t { kTaken = 1, kSkipped, kDropped, kUnsupported, kNotCaptured };
+  struct Source {
+    void* real;
+    std::unique_ptr<PresentSource> source;  ///< null: cannot be read
+  };
+  PresentSource* source_of(const TilepressPresent& present);
+  Outcome take(TilepressPresent& present, PresentSource& source, uint32_t& window, CapturedFrame*& frame);
+  void report(uint32_t surface, const std::string& reason);
+  CaptureWorker* worker(const PresentSource& source);
+
+  const TilepressHost host_;
+  const int64_t pid_;
+  RunOptions options_;
+  std::unique_ptr<ShimLog> log_;
+  std::atomic<bool> enabled_{false};
+  uint64_t start_ns_ = 0;
+  CaptureCounts counts_;
+  SurfaceRegistry registry_;
+  std::mutex mutex_;  ///< guards sources_ and the making of worker_
+  std::vector<Source> sources_;
+  std::atomic<CaptureWorker*> worker_{nullptr};  ///< never destroyed: the process may end at any time
+};
+
+}  // namespace tilepress

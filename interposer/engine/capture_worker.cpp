@@ -1,0 +1,129 @@
+// Capture worker: one frame at a time, in the order of presentation.
+#include "interposer/engine/capture_worker.h"
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+
+#include "interposer/engine/frame_dump.h"
+
+namespace tilepress {
+namespace {
+
+constexpr uint32_t kQueueDepth = 3;
+
+void note_run_folder(const std::string& path, int64_t pid) {
+  const char* session = getenv("TILEPRESS_SESSION");
+  if (session == nullptr || *session == 0) return;
+  const std::string file_name = std::string(session) + "/" + std::to_string(pid) + ".run";
+  const int file = open(file_name.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0) return;
+  const std::string line = path + "\n";
+  [[maybe_unused]] const ssize_t written = write(file, line.data(), line.size());
+  close(file);
+}
+
+}  // namespace
+
+CaptureWorker::CaptureWorker(const RunOptions& options, const RunInfo& info, CaptureCounts& counts,
+                             const ShimLog& log)
+    : options_(options), info_(info), counts_(counts), log_(log), queue_(kQueueDepth) {}
+
+bool CaptureWorker::start() {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  try {
+    thread_ = std::thread([this] { run(); });
+    pthread_setname_np(thread_.native_handle(), "tilepress");
+  } catch (...) {
+    alive_ = false;
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return alive_;
+}
+
+void CaptureWorker::run() {
+  try {
+    while (!queue_.closed_and_empty()) {
+      CapturedFrame* frame = queue_.next();
+      if (!writer_.is_open() && alive() && (frame != nullptr || counts_.seen > 0) && !create_directory())
+        give_up(writer_.error());
+      if (frame != nullptr) {
+        if (alive()) process(*frame);
+        queue_.done(frame);
+      }
+      if (writer_.is_open()) publish_counts();
+    }
+    if (alive() && writer_.is_open()) writer_.finish("finished", "");
+  } catch (const std::exception& error) {
+    give_up(error.what());
+  }
+}
+
+bool CaptureWorker::create_directory() {
+  const std::string stem = options_.output + "/" + info_.program + "-" + std::to_string(info_.pid);
+  std::string path = stem;
+  struct stat status;
+  for (int suffix = 2; lstat(path.c_str(), &status) == 0; ++suffix)
+    path = stem + "-" + std::to_string(suffix);
+  if (!writer_.create(path, info_, options_)) return false;
+  note_run_folder(path, info_.pid);
+  log_.write(LogLevel::kInfo, path + ": run started");
+  return true;
+}
+
+void CaptureWorker::process(const CapturedFrame& frame) {
+  auto found = surfaces_.find(frame.window);
+  if (found == surfaces_.end() || found->second.number != frame.surface)
+    found = surfaces_
+                .insert_or_assign(frame.window,
+                                  Surface{frame.surface, SurfaceEngine(options_.schemes, options_.model)})
+                .first;
+  statistics_.frame = frame.frame;
+  statistics_.surface = frame.surface;
+  statistics_.time_ns = frame.time_ns;
+  statistics_.readback_ns = frame.readback_ns;
+  found->second.engine.process(frame.view, statistics_);
+  dump_frame(frame, log_);
+  if (!writer_.append(statistics_)) return give_up(writer_.error());
+  ++counts_.captured;
+}
+
+void CaptureWorker::publish_counts() {
+  RunCounts counts;
+  counts.seen = counts_.seen;
+  counts.captured = counts_.captured;
+  counts.dropped = counts_.dropped;
+  counts.skipped = counts_.skipped;
+  counts.unsupported = counts_.unsupported;
+  counts.not_captured = counts_.not_captured;
+  writer_.set_counts(counts);
+}
+
+void CaptureWorker::give_up(const std::string& reason) {
+  log_.write(LogLevel::kError, reason.empty() ? "run folder: cannot be written" : reason);
+  if (writer_.is_open()) {
+    publish_counts();
+    writer_.finish("failed", reason);
+  }
+  alive_ = false;
+  while (!queue_.close()) {
+  }
+}
+
+void CaptureWorker::finish() {
+  // Bounded at every step: the caller may be a signal handler on top of any thread of the program.
+  if (!queue_.close()) return;
+  if (finish_mutex_.try_lock()) {
+    if (thread_.joinable() && thread_.get_id() != std::this_thread::get_id()) thread_.join();
+    finish_mutex_.unlock();
+  }
+}
+
+}  // namespace tilepress

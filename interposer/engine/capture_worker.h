@@ -1,0 +1,59 @@
+// Capture worker: the thread that compresses captured frames and writes the run.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "interposer/engine/frame_queue.h"
+#include "interposer/engine/shim_log.h"
+#include "tilepress/run_directory.h"
+#include "tilepress/surface_engine.h"
+
+namespace tilepress {
+
+/// Counts of the process, raised by the presenting threads (and `captured` by the worker).
+struct CaptureCounts {
+  std::atomic<uint64_t> seen{0}, captured{0}, dropped{0}, skipped{0}, unsupported{0}, not_captured{0};
+};
+
+/// Owns the run directory, which it creates at the first present: a process that presents nothing leaves no
+/// trace.
+class CaptureWorker {
+ public:
+  CaptureWorker(const RunOptions& options, const RunInfo& info, CaptureCounts& counts, const ShimLog& log);
+  /// Starts the thread with all signals blocked. False if the system gives none.
+  bool start();
+  FrameQueue& queue() { return queue_; }
+  /// Writes out all pending frames and ends the run. Does nothing if that cannot be done safely.
+  void finish();
+  /// False once the run cannot be written any more (full disk, unwritable folder).
+  bool alive() const { return alive_.load(std::memory_order_relaxed); }
+
+ private:
+  struct Surface {
+    uint32_t number;
+    SurfaceEngine engine;
+  };
+  void run();
+  bool create_directory();
+  void process(const CapturedFrame& frame);
+  void publish_counts();
+  void give_up(const std::string& reason);
+
+  const RunOptions options_;
+  const RunInfo info_;
+  CaptureCounts& counts_;
+  const ShimLog& log_;
+  FrameQueue queue_;
+  RunWriter writer_;
+  std::map<uint32_t, Surface> surfaces_;  ///< by window
+  FrameStatistics statistics_;
+  std::thread thread_;
+  std::mutex finish_mutex_;
+  std::atomic<bool> alive_{true};
+};
+
+}  // namespace tilepress

@@ -1,0 +1,29 @@
+// Captured frame: the pixels of one presented frame on their way from the program's thread to the worker.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "tilepress/surface.h"
+
+namespace tilepress {
+
+/// Owns its pixels; the memory is kept when the frame is used again.
+struct CapturedFrame {
+  uint32_t window = 0;   ///< which of the program's surfaces, whatever its size
+  uint32_t surface = 0;  ///< surface number in the statistics: a window at one size and format
+  uint64_t frame = 0;    ///< number of the frame within its surface
+  uint64_t time_ns = 0;  ///< since the run began
+  uint64_t readback_ns = 0;
+  SurfaceView view;  ///< lies in `pixels`
+
+  /// Room for `bytes` bytes, contents undefined; null if there is no memory.
+  std::byte* reserve(size_t bytes);
+
+ private:
+  std::unique_ptr<std::byte[]> pixels_;
+  size_t capacity_ = 0;
+};
+
+}  // namespace tilepress

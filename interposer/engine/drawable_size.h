@@ -1,0 +1,27 @@
+// Drawable size: the size of an X window, asked so that no X error can reach the program's error handler.
+#pragma once
+
+#include <X11/Xlib.h>
+
+#include "interposer/engine/library_symbols.h"
+
+struct xcb_connection_t;
+
+namespace tilepress {
+
+/// Uses XCB on the program's own connection: an error comes back with the reply instead of through Xlib's
+/// handler.
+class DrawableSize {
+ public:
+  explicit DrawableSize(const LibrarySymbols& library);
+  /// False if `drawable` is neither a window nor a pixmap of the server, or XCB is not to be had.
+  bool query(Display* display, XID drawable, unsigned& width, unsigned& height) const;
+
+ private:
+  using GetConnection = xcb_connection_t* (*)(Display*);
+  GetConnection get_connection_ = nullptr;
+  void* get_geometry_ = nullptr;
+  void* get_geometry_reply_ = nullptr;
+};
+
+}  // namespace tilepress

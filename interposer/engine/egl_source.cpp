@@ -1,0 +1,163 @@
+// EGL source: reads the surface of an eglSwapBuffers in a context of our own on the surface's config.
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+#include "interposer/engine/context_pool.h"
+#include "interposer/engine/gl_readback.h"
+#include "interposer/engine/library_symbols.h"
+#include "interposer/engine/present_source.h"
+
+namespace tilepress {
+namespace {
+
+struct EglFunctions {
+  decltype(&eglBindAPI) BindAPI = nullptr;
+  decltype(&eglChooseConfig) ChooseConfig = nullptr;
+  decltype(&eglCreateContext) CreateContext = nullptr;
+  decltype(&eglGetConfigAttrib) GetConfigAttrib = nullptr;
+  decltype(&eglGetCurrentContext) GetCurrentContext = nullptr;
+  decltype(&eglGetCurrentDisplay) GetCurrentDisplay = nullptr;
+  decltype(&eglGetCurrentSurface) GetCurrentSurface = nullptr;
+  decltype(&eglGetProcAddress) GetProcAddress = nullptr;
+  decltype(&eglMakeCurrent) MakeCurrent = nullptr;
+  decltype(&eglQueryAPI) QueryAPI = nullptr;
+  decltype(&eglQuerySurface) QuerySurface = nullptr;
+
+  bool load(const LibrarySymbols& library) {
+    const auto fill = [&](auto& function, const char* name) {
+      function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(library.find(name));
+      return function != nullptr;
+    };
+    return fill(BindAPI, "eglBindAPI") && fill(ChooseConfig, "eglChooseConfig") &&
+           fill(CreateContext, "eglCreateContext") && fill(GetConfigAttrib, "eglGetConfigAttrib") &&
+           fill(GetCurrentContext, "eglGetCurrentContext") &&
+           fill(GetCurrentDisplay, "eglGetCurrentDisplay") &&
+           fill(GetCurrentSurface, "eglGetCurrentSurface") && fill(GetProcAddress, "eglGetProcAddress") &&
+           fill(MakeCurrent, "eglMakeCurrent") && fill(QueryAPI, "eglQueryAPI") &&
+           fill(QuerySurface, "eglQuerySurface");
+  }
+};
+
+class EglSource final : public PresentSource {
+ public:
+  EglSource(const EglFunctions& egl, const GlFunctions& gl) : egl_(egl), gl_(gl) {}
+
+  bool describe(const TilepressPresent& present, WindowKey& key, SurfaceShape& shape,
+                std::string& reason) override {
+    const auto surface = reinterpret_cast<EGLSurface>(present.surface);
+    if (egl_.GetCurrentContext() == EGL_NO_CONTEXT) return fail(reason, "no context is current");
+    if (egl_.GetCurrentDisplay() != present.display) return fail(reason, "another display is current");
+    if (egl_.GetCurrentSurface(EGL_DRAW) != surface) return fail(reason, "the surface is not current");
+    EGLint width = 0, height = 0;
+    if (!egl_.QuerySurface(present.display, surface, EGL_WIDTH, &width) ||
+        !egl_.QuerySurface(present.display, surface, EGL_HEIGHT, &height))
+      return fail(reason, "eglQuerySurface failed");
+    if (width < 1 || height < 1) return fail(reason, "the surface has no pixels");
+    EGLConfig config = nullptr;
+    if (!config_of(present, config)) return fail(reason, "the surface has no config");
+    key = {present.display, present.surface};
+    shape = {static_cast<uint32_t>(width), static_cast<uint32_t>(height),
+             format_of(bits_of(present.display, config))};
+    return true;
+  }
+
+  bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
+            std::string& reason) override {
+    const auto surface = reinterpret_cast<EGLSurface>(present.surface);
+    const EGLContext context = egl_.GetCurrentContext();
+    const EGLSurface draw = egl_.GetCurrentSurface(EGL_DRAW), read = egl_.GetCurrentSurface(EGL_READ);
+    EGLConfig config = nullptr;
+    config_of(present, config);
+    const ContextPool::Key key{present.display, reinterpret_cast<uintptr_t>(config)};
+    EGLContext own = pool_.take(key);
+    bool bound = own != EGL_NO_CONTEXT && egl_.MakeCurrent(present.display, surface, surface, own);
+    if (!bound) {
+      // None yet, or one that died with an eglTerminate of the program.
+      own = create(present.display, config);
+      if (own == EGL_NO_CONTEXT) return fail(reason, "no private context");
+      bound = egl_.MakeCurrent(present.display, surface, surface, own);
+    }
+    GLenum error = 0;
+    const bool taken = bound && read_back_buffer(gl_, shape, frame, error);
+    if (bound && !egl_.MakeCurrent(present.display, draw, read, context)) {
+      reason = "the program's context could not be made current again";
+      return false;
+    }
+    pool_.give(key, own);
+    if (!taken) reason = bound ? "glReadPixels failed" : "the private context cannot be made current";
+    return taken;
+  }
+
+  GlStrings strings() const override {
+    const auto text = [&](GLenum name) {
+      const GLubyte* value = gl_.GetString(name);
+      return std::string(value != nullptr ? reinterpret_cast<const char*>(value) : "");
+    };
+    return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)};
+  }
+  const char* api() const override { return "EGL"; }
+
+ private:
+  static bool fail(std::string& reason, const char* text) {
+    reason = text;
+    return false;
+  }
+
+  bool config_of(const TilepressPresent& present, EGLConfig& config) const {
+    EGLint id = 0, count = 0;
+    if (!egl_.QuerySurface(present.display, reinterpret_cast<EGLSurface>(present.surface), EGL_CONFIG_ID,
+                           &id))
+      return false;
+    const EGLint wanted[] = {EGL_CONFIG_ID, id, EGL_NONE};
+    return egl_.ChooseConfig(present.display, wanted, &config, 1, &count) && count == 1;
+  }
+
+  EGLint attribute(EGLDisplay display, EGLConfig config, EGLint name) const {
+    EGLint value = 0;
+    return egl_.GetConfigAttrib(display, config, name, &value) ? value : 0;
+  }
+
+  ChannelBits bits_of(EGLDisplay display, EGLConfig config) const {
+    return {attribute(display, config, EGL_RED_SIZE), attribute(display, config, EGL_GREEN_SIZE),
+            attribute(display, config, EGL_BLUE_SIZE), attribute(display, config, EGL_ALPHA_SIZE),
+            attribute(display, config, EGL_COLOR_COMPONENT_TYPE_EXT) == EGL_COLOR_COMPONENT_TYPE_FLOAT_EXT};
+  }
+
+  EGLContext create(EGLDisplay display, EGLConfig config) const {
+    const EGLint renderable = attribute(display, config, EGL_RENDERABLE_TYPE);
+    const EGLenum program_api = egl_.QueryAPI();
+    EGLContext context = EGL_NO_CONTEXT;
+    const auto attempt = [&](EGLint bit, EGLenum api, EGLint version) {
+      const EGLint attributes[] = {version != 0 ? EGL_CONTEXT_CLIENT_VERSION : EGL_NONE, version, EGL_NONE};
+      if (context == EGL_NO_CONTEXT && (renderable & bit) != 0 && egl_.BindAPI(api))
+        context = egl_.CreateContext(display, config, EGL_NO_CONTEXT, attributes);
+    };
+    attempt(EGL_OPENGL_ES3_BIT, EGL_OPENGL_ES_API, 3);
+    attempt(EGL_OPENGL_ES2_BIT, EGL_OPENGL_ES_API, 2);
+    attempt(EGL_OPENGL_BIT, EGL_OPENGL_API, 0);
+    egl_.BindAPI(program_api);
+    return context;
+  }
+
+  const EglFunctions egl_;
+  const GlFunctions gl_;
+  ContextPool pool_;
+};
+
+}  // namespace
+
+std::unique_ptr<PresentSource> make_egl_source(const TilepressHost& host, void* real) {
+  const LibrarySymbols library(host, real);
+  EglFunctions egl;
+  GlFunctions gl;
+  if (!egl.load(library)) return nullptr;
+  const bool loaded = gl.load([&](const char* name) -> void* {
+    if (void* found = reinterpret_cast<void*>(egl.GetProcAddress(name))) return found;
+    for (const char* other : {"libGLESv2.so.2", "libGL.so.1", "libOpenGL.so.0"})
+      if (void* found = library.find_in_loaded(other, name)) return found;
+    return nullptr;
+  });
+  return loaded ? std::make_unique<EglSource>(egl, gl) : nullptr;
+}
+
+}  // namespace tilepress

@@ -1,0 +1,66 @@
+// Engine: the C face of the capture, one Capture per process id. Nothing is thrown past here.
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+
+#include "interposer/engine/capture.h"
+
+namespace tilepress {
+namespace {
+
+TilepressHost host;
+std::atomic<Capture*> current{nullptr};
+
+// The capture of this process. After a fork the child finds its parent's, whose worker does not exist here
+// and whose locks may be held by threads that do not exist either: it is left behind as it is.
+Capture* capture_of_this_process() {
+  Capture* known = current.load(std::memory_order_acquire);
+  if (known != nullptr && known->pid() == getpid()) return known;
+  auto* fresh = new Capture(host);
+  if (current.compare_exchange_strong(known, fresh, std::memory_order_acq_rel)) return fresh;
+  delete fresh;
+  return known;
+}
+
+int begin(TilepressPresent* present) {
+  try {
+    return capture_of_this_process()->begin(*present) ? 1 : 0;
+  } catch (...) {
+    return 0;
+  }
+}
+
+void end(TilepressPresent* present, int presented) {
+  try {
+    capture_of_this_process()->end(*present, presented != 0);
+  } catch (...) {
+  }
+}
+
+void finish() {
+  Capture* known = current.load(std::memory_order_acquire);
+  if (known == nullptr || known->pid() != getpid()) return;
+  try {
+    known->finish();
+  } catch (...) {
+  }
+}
+
+// Runs after all atexit handlers of the program: it may present frames even there.
+__attribute__((destructor)) void at_library_end() {
+  finish();
+}
+
+constexpr TilepressEngine kEngine = {TILEPRESS_ENGINE_VERSION, begin, end, finish};
+
+}  // namespace
+}  // namespace tilepress
+
+extern "C" __attribute__((visibility("default"))) const TilepressEngine* tilepress_engine(
+    const TilepressHost* host) {
+  if (host == nullptr || host->version != TILEPRESS_ENGINE_VERSION) return nullptr;
+  tilepress::host = *host;
+  at_quick_exit([] { tilepress::finish(); });
+  return &tilepress::kEngine;
+}

@@ -1,0 +1,47 @@
+// Frame queue: hands captured frames from the program's threads to the worker, a bounded number at a time.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "interposer/engine/captured_frame.h"
+
+namespace tilepress {
+
+/// The bound counts frames the worker has not finished, not those being filled: a program whose threads wait
+/// for each other's presents cannot be held up by a frame that none of them can finish.
+class FrameQueue {
+ public:
+  explicit FrameQueue(uint32_t depth) : depth_(depth) {}
+
+  /// A frame to fill. When `depth` frames are pending: waits if `wait`, else returns null. Null also after
+  /// close().
+  CapturedFrame* acquire(bool wait);
+  void submit(CapturedFrame* frame);   ///< filled and presented
+  void release(CapturedFrame* frame);  ///< back unused, or done with
+  void wake();                         ///< makes next() return
+
+  /// The worker's side: the next frame, or null after wake() or once closed and empty.
+  CapturedFrame* next();
+  void done(CapturedFrame* frame);
+
+  /// No more frames; what is pending is still handed out. Gives up, returning false, if the lock cannot be
+  /// had within a second: the caller may be a signal handler on top of a thread that holds it.
+  bool close();
+  bool closed_and_empty();
+
+ private:
+  const uint32_t depth_;
+  std::timed_mutex mutex_;
+  std::condition_variable_any changed_;
+  std::vector<std::unique_ptr<CapturedFrame>> free_;
+  std::deque<std::unique_ptr<CapturedFrame>> ready_;
+  uint32_t pending_ = 0;
+  bool closed_ = false, woken_ = false;
+};
+
+}  // namespace tilepress

@@ -1,0 +1,79 @@
+// GL readback: asks for the implementation's own format, because any other is converted pixel by pixel on the
+// program's thread, and because a conversion of 16-bit or 10-bit pixels would not be the surface any more.
+#include "interposer/engine/gl_readback.h"
+
+#include <GL/glext.h>
+
+namespace tilepress {
+namespace {
+
+struct Transfer {
+  GLenum format, type;
+  uint32_t pixel_bytes;
+  ByteOrder order;
+};
+
+constexpr Transfer kRgba{GL_RGBA, GL_UNSIGNED_BYTE, 4, ByteOrder::kRgba};
+
+Transfer transfer_of_8888(GLint format, GLint type) {
+  const bool bytes = type == GL_UNSIGNED_BYTE || type == GL_UNSIGNED_INT_8_8_8_8_REV;
+  if (format == GL_BGRA && bytes) return {GL_BGRA, static_cast<GLenum>(type), 4, ByteOrder::kBgra};
+  return kRgba;
+}
+
+Transfer transfer_of(PixelFormat format, const GlFunctions& gl) {
+  switch (format) {
+    case PixelFormat::kRgb565:
+      return {GL_RGB, GL_UNSIGNED_SHORT_5_6_5, 2, ByteOrder::kNative};
+    case PixelFormat::kRgb10a2:
+      return {GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, 4, ByteOrder::kNative};
+    case PixelFormat::kRgba16f:
+      return {GL_RGBA, GL_HALF_FLOAT, 8, ByteOrder::kNative};
+    default:
+      break;
+  }
+  GLint preferred_format = 0, preferred_type = 0;
+  gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &preferred_format);
+  gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &preferred_type);
+  while (gl.GetError() != GL_NO_ERROR) {
+  }  // desktop GL before 4.1 does not know the question
+  return transfer_of_8888(preferred_format, preferred_type);
+}
+
+}  // namespace
+
+std::optional<PixelFormat> format_of(const ChannelBits& bits) {
+  const auto is = [&](int red, int green, int blue, int alpha) {
+    return bits.red == red && bits.green == green && bits.blue == blue && bits.alpha == alpha;
+  };
+  if (bits.floating) return is(16, 16, 16, 16) ? std::optional(PixelFormat::kRgba16f) : std::nullopt;
+  if (is(8, 8, 8, 8)) return PixelFormat::kRgba8;
+  if (is(8, 8, 8, 0)) return PixelFormat::kRgbx8;
+  if (is(5, 6, 5, 0)) return PixelFormat::kRgb565;
+  if (is(10, 10, 10, 2) || is(10, 10, 10, 0)) return PixelFormat::kRgb10a2;  // without alpha GL reads A as 1
+  return std::nullopt;
+}
+
+bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape, CapturedFrame& frame, GLenum& error) {
+  error = 0;
+  const Transfer transfer = transfer_of(*shape.format, gl);
+  const size_t pitch_bytes = size_t{shape.width} * transfer.pixel_bytes;
+  std::byte* pixels = frame.reserve(pitch_bytes * shape.height);
+  if (pixels == nullptr) return false;
+  // Drivers have crashed on a read with READ_BUFFER = NONE; a fresh context on a window has GL_BACK, on
+  // others maybe not.
+  if (gl.ReadBuffer != nullptr) gl.ReadBuffer(GL_BACK);
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl.ReadPixels(0, 0, static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height), transfer.format,
+                transfer.type, pixels);
+  for (GLenum found = gl.GetError(); found != GL_NO_ERROR; found = gl.GetError()) error = found;
+  frame.view.top_row = pixels + pitch_bytes * (shape.height - 1);
+  frame.view.pitch_bytes = -static_cast<ptrdiff_t>(pitch_bytes);
+  frame.view.width = shape.width;
+  frame.view.height = shape.height;
+  frame.view.format = *shape.format;
+  frame.view.order = transfer.order;
+  return error == 0;
+}
+
+}  // namespace tilepress

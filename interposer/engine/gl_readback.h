@@ -1,0 +1,26 @@
+// GL readback: reads the back buffer of the current surface as the implementation keeps it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "interposer/engine/captured_frame.h"
+#include "interposer/engine/gl_functions.h"
+#include "interposer/engine/surface_registry.h"
+
+namespace tilepress {
+
+/// Bits of each colour channel of a config or visual.
+struct ChannelBits {
+  int red = 0, green = 0, blue = 0, alpha = 0;
+  bool floating = false;
+};
+
+/// The pixel format whose memory layout holds exactly these channels; empty if there is none.
+std::optional<PixelFormat> format_of(const ChannelBits& bits);
+
+/// Reads the whole back buffer into `frame` and sets its view. The current context is private to the shim:
+/// its state and its error flags are ours. False, with the GL error or 0 in `error`, if nothing was read.
+bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape, CapturedFrame& frame, GLenum& error);
+
+}  // namespace tilepress

@@ -1,0 +1,151 @@
+// GLX source: reads the drawable of a glXSwapBuffers in a context of our own on the current context's config.
+#include <GL/glx.h>
+#include <GL/glxext.h>
+
+#include "interposer/engine/context_pool.h"
+#include "interposer/engine/drawable_size.h"
+#include "interposer/engine/gl_readback.h"
+#include "interposer/engine/library_symbols.h"
+#include "interposer/engine/present_source.h"
+
+namespace tilepress {
+namespace {
+
+struct GlxFunctions {
+  decltype(&glXChooseFBConfig) ChooseFBConfig = nullptr;
+  decltype(&glXCreateNewContext) CreateNewContext = nullptr;
+  decltype(&glXGetCurrentContext) GetCurrentContext = nullptr;
+  decltype(&glXGetCurrentDisplay) GetCurrentDisplay = nullptr;
+  decltype(&glXGetCurrentDrawable) GetCurrentDrawable = nullptr;
+  decltype(&glXGetCurrentReadDrawable) GetCurrentReadDrawable = nullptr;
+  decltype(&glXGetFBConfigAttrib) GetFBConfigAttrib = nullptr;
+  decltype(&glXGetProcAddressARB) GetProcAddressARB = nullptr;
+  decltype(&glXIsDirect) IsDirect = nullptr;
+  decltype(&glXMakeContextCurrent) MakeContextCurrent = nullptr;
+  decltype(&glXQueryContext) QueryContext = nullptr;
+  decltype(&glXQueryDrawable) QueryDrawable = nullptr;
+  decltype(&XFree) Free = nullptr;
+
+  bool load(const LibrarySymbols& library) {
+    const auto fill = [&](auto& function, const char* name) {
+      function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(library.find(name));
+      return function != nullptr;
+    };
+    return fill(ChooseFBConfig, "glXChooseFBConfig") && fill(CreateNewContext, "glXCreateNewContext") &&
+           fill(GetCurrentContext, "glXGetCurrentContext") &&
+           fill(GetCurrentDisplay, "glXGetCurrentDisplay") &&
+           fill(GetCurrentDrawable, "glXGetCurrentDrawable") &&
+           fill(GetCurrentReadDrawable, "glXGetCurrentReadDrawable") &&
+           fill(GetFBConfigAttrib, "glXGetFBConfigAttrib") &&
+           fill(GetProcAddressARB, "glXGetProcAddressARB") && fill(IsDirect, "glXIsDirect") &&
+           fill(MakeContextCurrent, "glXMakeContextCurrent") && fill(QueryContext, "glXQueryContext") &&
+           fill(QueryDrawable, "glXQueryDrawable") && fill(Free, "XFree");
+  }
+};
+
+class GlxSource final : public PresentSource {
+ public:
+  GlxSource(const GlxFunctions& glx, const GlFunctions& gl, DrawableSize size)
+      : glx_(glx), gl_(gl), size_(std::move(size)) {}
+
+  bool describe(const TilepressPresent& present, WindowKey& key, SurfaceShape& shape,
+                std::string& reason) override {
+    if (glx_.GetCurrentContext() == nullptr) return fail(reason, "no context is current");
+    if (glx_.GetCurrentDrawable() != present.surface) return fail(reason, "the drawable is not current");
+    Display* display = glx_.GetCurrentDisplay();
+    GLXFBConfig config = current_config(display);
+    if (config == nullptr) return fail(reason, "the context has no framebuffer config");
+    unsigned width = 0, height = 0;
+    if (!size_.query(display, present.surface, width, height)) {
+      // Not a window or pixmap, so a GLX drawable: asking GLX for it raises no X error.
+      glx_.QueryDrawable(display, present.surface, GLX_WIDTH, &width);
+      glx_.QueryDrawable(display, present.surface, GLX_HEIGHT, &height);
+    }
+    if (width < 1 || height < 1) return fail(reason, "the drawable has no pixels");
+    key = {display, present.surface};
+    shape = {width, height, format_of(bits_of(display, config))};
+    return true;
+  }
+
+  bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
+            std::string& reason) override {
+    const GLXContext context = glx_.GetCurrentContext();
+    const GLXDrawable draw = glx_.GetCurrentDrawable(), read = glx_.GetCurrentReadDrawable();
+    Display* display = glx_.GetCurrentDisplay();
+    const GLXFBConfig config = current_config(display);
+    const ContextPool::Key key{display, reinterpret_cast<uintptr_t>(config)};
+    auto own = static_cast<GLXContext>(pool_.take(key));
+    if (own == nullptr)
+      own = glx_.CreateNewContext(display, config, GLX_RGBA_TYPE, nullptr, glx_.IsDirect(display, context));
+    if (own == nullptr) return fail(reason, "no private context");
+    const bool bound = glx_.MakeContextCurrent(display, present.surface, present.surface, own);
+    GLenum error = 0;
+    const bool taken = bound && read_back_buffer(gl_, shape, frame, error);
+    if (bound && !glx_.MakeContextCurrent(display, draw, read, context))
+      return fail(reason, "the program's context could not be made current again");
+    pool_.give(key, own);
+    if (!taken) reason = bound ? "glReadPixels failed" : "the private context cannot be made current";
+    return taken;
+  }
+
+  GlStrings strings() const override {
+    const auto text = [&](GLenum name) {
+      const GLubyte* value = gl_.GetString(name);
+      return std::string(value != nullptr ? reinterpret_cast<const char*>(value) : "");
+    };
+    return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)};
+  }
+  const char* api() const override { return "GLX"; }
+
+ private:
+  static bool fail(std::string& reason, const char* text) {
+    reason = text;
+    return false;
+  }
+
+  /// The config of the current context. Config handles live as long as the display.
+  GLXFBConfig current_config(Display* display) const {
+    int id = 0, screen = 0, count = 0;
+    const GLXContext context = glx_.GetCurrentContext();
+    if (glx_.QueryContext(display, context, GLX_FBCONFIG_ID, &id) != 0 || id == 0) return nullptr;
+    if (glx_.QueryContext(display, context, GLX_SCREEN, &screen) != 0) return nullptr;
+    const int wanted[] = {GLX_FBCONFIG_ID, id, 0};
+    GLXFBConfig* configs = glx_.ChooseFBConfig(display, screen, wanted, &count);
+    GLXFBConfig config = configs != nullptr && count > 0 ? configs[0] : nullptr;
+    if (configs != nullptr) glx_.Free(configs);
+    return config;
+  }
+
+  int attribute(Display* display, GLXFBConfig config, int name) const {
+    int value = 0;
+    return glx_.GetFBConfigAttrib(display, config, name, &value) == 0 ? value : 0;
+  }
+
+  ChannelBits bits_of(Display* display, GLXFBConfig config) const {
+    return {attribute(display, config, GLX_RED_SIZE), attribute(display, config, GLX_GREEN_SIZE),
+            attribute(display, config, GLX_BLUE_SIZE), attribute(display, config, GLX_ALPHA_SIZE),
+            (attribute(display, config, GLX_RENDER_TYPE) & GLX_RGBA_FLOAT_BIT_ARB) != 0};
+  }
+
+  const GlxFunctions glx_;
+  const GlFunctions gl_;
+  const DrawableSize size_;
+  ContextPool pool_;
+};
+
+}  // namespace
+
+std::unique_ptr<PresentSource> make_glx_source(const TilepressHost& host, void* real) {
+  const LibrarySymbols library(host, real);
+  GlxFunctions glx;
+  GlFunctions gl;
+  if (!glx.load(library)) return nullptr;
+  const bool loaded = gl.load([&](const char* name) -> void* {
+    if (void* found = reinterpret_cast<void*>(glx.GetProcAddressARB(reinterpret_cast<const GLubyte*>(name))))
+      return found;
+    return library.find(name);
+  });
+  return loaded ? std::make_unique<GlxSource>(glx, gl, DrawableSize(library)) : nullptr;
+}
+
+}  // namespace tilepress

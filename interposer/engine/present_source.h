@@ -1,0 +1,39 @@
+// Present source: how one window-system API tells what is being presented, and lends its back buffer for
+// reading.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "interposer/engine/captured_frame.h"
+#include "interposer/engine/surface_registry.h"
+#include "interposer/engine_contract.h"
+
+namespace tilepress {
+
+struct GlStrings {
+  std::string vendor, renderer, version;
+};
+
+/// One per API and real library. All calls come from the presenting thread, before the real call; several
+/// threads may be inside at once.
+class PresentSource {
+ public:
+  virtual ~PresentSource() = default;
+  /// The window and shape that `present` presents. False, with the reason, if the call presents nothing that
+  /// the calling thread could read.
+  virtual bool describe(const TilepressPresent& present, WindowKey& key, SurfaceShape& shape,
+                        std::string& reason) = 0;
+  /// Reads the back buffer in a private context and makes the program's context current again.
+  virtual bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
+                    std::string& reason) = 0;
+  /// Of the program's own context, which is current.
+  virtual GlStrings strings() const = 0;
+  virtual const char* api() const = 0;
+};
+
+/// Null if the library that holds `present.real` lacks a function the readback needs.
+std::unique_ptr<PresentSource> make_egl_source(const TilepressHost& host, void* real);
+std::unique_ptr<PresentSource> make_glx_source(const TilepressHost& host, void* real);
+
+}  // namespace tilepress

@@ -1,0 +1,55 @@
+// Surface registry: which window is which surface, and how many frames it has presented.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "tilepress/pixel_format.h"
+
+namespace tilepress {
+
+/// What a program presents from, as the native API names it.
+struct WindowKey {
+  const void* display;
+  uintptr_t surface;
+  bool operator==(const WindowKey&) const = default;
+};
+
+/// Size and pixel format. `format` is empty where the bits fit none of the known formats.
+struct SurfaceShape {
+  uint32_t width = 0, height = 0;
+  std::optional<PixelFormat> format;
+  bool operator==(const SurfaceShape&) const = default;
+};
+
+/// Numbers a present of a window. A surface is a buffer with a size and a pixel format: when a window changes
+/// either, its next frame is frame 0 of a new surface.
+class SurfaceRegistry {
+ public:
+  struct Turn {
+    uint32_t window, surface;
+    uint64_t frame;
+  };
+  /// The numbers the next frame of the window bears; asking changes nothing but the shape. Thread-safe.
+  Turn turn(const WindowKey& key, const SurfaceShape& shape);
+  /// The window has presented the frame that turn() numbered.
+  void presented(uint32_t window);
+  /// True the first time it is asked for `surface`: a thing to be said once.
+  bool first_report(uint32_t surface);
+
+ private:
+  struct Window {
+    WindowKey key;
+    SurfaceShape shape;
+    uint32_t surface;
+    uint64_t frames;
+  };
+  std::mutex mutex_;
+  std::vector<Window> windows_;
+  std::vector<uint32_t> reported_;
+  uint32_t surface_count_ = 0;
+};
+
+}  // namespace tilepress

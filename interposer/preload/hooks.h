@@ -1,0 +1,22 @@
+// Hooks: one per entry point, each forwarding to the real function it is given.
+#pragma once
+
+#include <stdint.h>
+
+typedef void* tp_display;               // EGLDisplay, Display*
+typedef void* tp_egl_surface;           // EGLSurface
+typedef unsigned long tp_glx_drawable;  // GLXDrawable, an XID
+typedef unsigned tp_egl_boolean;        // EGLBoolean
+typedef int32_t tp_egl_int;             // EGLint
+
+void* tp_on_get_proc_address(void* real, const char* name);
+tp_egl_boolean tp_on_egl_swap(void* real, tp_display display, tp_egl_surface surface);
+tp_egl_boolean tp_on_egl_swap_with_damage(void* real, tp_display display, tp_egl_surface surface,
+                                          const tp_egl_int* rectangles, tp_egl_int count);
+tp_egl_boolean tp_on_egl_post_sub_buffer(void* real, tp_display display, tp_egl_surface surface, tp_egl_int x,
+                                         tp_egl_int y, tp_egl_int width, tp_egl_int height);
+void tp_on_glx_swap(void* real, tp_display display, tp_glx_drawable drawable);
+int64_t tp_on_glx_swap_msc(void* real, tp_display display, tp_glx_drawable drawable, int64_t target_msc,
+                           int64_t divisor, int64_t remainder);
+void tp_on_glx_copy_sub_buffer(void* real, tp_display display, tp_glx_drawable drawable, int x, int y,
+                               int width, int height);

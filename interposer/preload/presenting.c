@@ -1,0 +1,35 @@
+// Presenting: keeps errno and cancellation away from the program's sight while the engine works.
+#include "presenting.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <stddef.h>
+
+#include "engine_loader.h"
+
+// Depth of presenting calls on this thread. A driver or another shim may present through a hooked function.
+static __thread int depth __attribute__((tls_model("initial-exec")));
+
+bool tp_presenting(struct TilepressPresent* present) {
+  if (depth > 0 || present->real == NULL) return false;
+  int cancel_state;
+  const int saved = errno;
+  pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &cancel_state);
+  depth = 1;
+  const struct TilepressEngine* engine = tp_engine();
+  const bool taken = engine != NULL && engine->begin(present) != 0;
+  depth = taken ? 1 : 0;
+  pthread_setcancelstate(cancel_state, NULL);
+  errno = saved;
+  return taken;
+}
+
+void tp_presented(struct TilepressPresent* present, bool success) {
+  int cancel_state;
+  const int saved = errno;
+  pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &cancel_state);
+  tp_loaded_engine()->end(present, success);
+  depth = 0;
+  pthread_setcancelstate(cancel_state, NULL);
+  errno = saved;
+}

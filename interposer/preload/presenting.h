@@ -1,0 +1,13 @@
+// Presenting: the bracket that every hook of a presenting call puts around the real call.
+#pragma once
+
+#include <stdbool.h>
+
+#include "../engine_contract.h"
+
+// Before the real call. True if tp_presented must be called after it; false for calls from inside a
+// presenting call (drivers implement one through another) and where nothing is captured.
+bool tp_presenting(struct TilepressPresent* present);
+
+// After the real call.
+void tp_presented(struct TilepressPresent* present, bool success);

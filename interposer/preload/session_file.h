@@ -1,0 +1,7 @@
+// Session file: tells the launcher which entry points this process looked up or called, and by which road.
+#pragma once
+
+// Appends "program entry road" to $TILEPRESS_SESSION/<pid>.seen, once per entry and road; nothing where the
+// variable is not set. `entry` is a name of tp_entry_names. Keeps errno.
+// road: link, dlsym, getprocaddress, or unhooked (all hooks of the entry are in use).
+void tp_session_note(const char* entry, const char* road);

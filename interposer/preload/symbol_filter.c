@@ -1,0 +1,75 @@
+// Symbol filter: decides, for every dlsym and dlvsym of the process, who answers.
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <link.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "elf_symbols.h"
+#include "entry_points.h"
+#include "real_dlsym.h"
+#include "session_file.h"
+
+// What the trampoline does next: jump to the real function with stack and registers as its caller left them,
+// or return `answer`. (Returned in two registers on x86-64 and AArch64.)
+struct tp_verdict {
+  void* jump_to;
+  void* answer;
+};
+
+static void* look_up(void* handle, const char* name, const char* version) {
+  return version != NULL ? tp_real_dlvsym()(handle, name, version) : tp_real_dlsym()(handle, name);
+}
+
+// An ANGLE handle is left alone: ANGLE's frames are seen one level down, at the library it draws with.
+static bool is_angle(const void* function) {
+  return tp_symbol_in_object_of(function, "eglStreamPostD3DTextureANGLE") != NULL;
+}
+
+// RTLD_NEXT finds our export only where the caller stands before us in load order.
+static bool next_is_ours(const void* caller) {
+  const int position = tp_load_position(caller);
+  return position >= 0 && position < tp_load_position((const void*)&next_is_ours);
+}
+
+// The lookup would have found our own export: what would it have found without us?
+static void* look_past_us(void* handle, const char* name, const char* version, const void* caller) {
+  void* found = look_up(RTLD_NEXT, name, version);
+  Dl_info where;
+  struct link_map* object = NULL;
+  if (found == NULL && handle == RTLD_DEFAULT &&
+      dladdr1(caller, &where, (void**)&object, RTLD_DL_LINKMAP) != 0) {
+    found = look_up(object, name, version);
+    if (found != NULL) dlerror();  // a success leaves no message behind
+  }
+  return found != NULL && tp_is_ours(found) ? NULL : found;
+}
+
+static struct tp_verdict decide(void* handle, const char* name, const char* version, const void* caller,
+                                void* real_function) {
+  const struct tp_verdict forward = {real_function, NULL};
+  const int entry = tp_find_entry(name);
+  if (entry < 0 || real_function == NULL || tp_real_dlsym() == NULL) return forward;
+  void* real;
+  if (handle == RTLD_NEXT) {
+    if (!next_is_ours(caller)) return forward;
+    real = look_past_us(handle, name, version, caller);
+  } else {
+    real = look_up(handle, name, version);
+    if (real == NULL) return forward;  // the real function says so again, with the caller's own dlerror
+    if (tp_is_ours(real)) real = look_past_us(handle, name, version, caller);
+  }
+  if (real == NULL) return (struct tp_verdict){NULL, NULL};
+  if (is_angle(real)) return (struct tp_verdict){NULL, real};
+  tp_session_note(name, "dlsym");
+  return (struct tp_verdict){NULL, tp_bind((enum tp_entry)entry, real)};
+}
+
+// Called by the trampolines only.
+struct tp_verdict tp_filter_dlsym(void* handle, const char* name, const void* caller) {
+  return decide(handle, name, NULL, caller, (void*)tp_real_dlsym());
+}
+
+struct tp_verdict tp_filter_dlvsym(void* handle, const char* name, const char* version, const void* caller) {
+  return decide(handle, name, version, caller, (void*)tp_real_dlvsym());
+}
