@@ -19,9 +19,12 @@ struct RasClasses {
   uint32_t burst_bits;
 
   uint32_t csb_bits() const {
-    return sizes == RasSizes::kBurst ? static_cast<uint32_t>(std::bit_width(raw_bits / burst_bits)) : 2;
+    return sizes == RasSizes::kBurst ? static_cast<uint32_t>(std::bit_width(raw_class())) : 2;
   }
-  uint32_t raw_class() const { return sizes == RasSizes::kBurst ? raw_bits / burst_bits : 3; }
+  /// A raw block smaller than one burst still takes one.
+  uint32_t raw_class() const {
+    return sizes == RasSizes::kBurst ? (raw_bits + burst_bits - 1) / burst_bits : 3;
+  }
   /// Class of a stream of `bits`.
   uint32_t class_of(uint32_t bits) const {
     if (sizes == RasSizes::kBurst) {
