@@ -12,7 +12,7 @@ namespace {
 
 /// Sets the option, or returns false with the reason alone: callers put the option's name and value before
 /// it.
-using Setter = bool (*)(RunOptions&, std::string_view value, std::string& reason);
+using Setter = bool (*)(RunOptions&, std::string_view& value, std::string& reason);
 
 bool parse_count(std::string_view text, uint64_t least, uint64_t most, uint64_t& out, std::string& reason) {
   uint64_t value = 0;
@@ -30,7 +30,7 @@ bool parse_count(std::string_view text, uint64_t least, uint64_t most, uint64_t&
   return true;
 }
 
-bool set_schemes(RunOptions& options, std::string_view value, std::string& reason) {
+bool set_schemes(RunOptions& options, std::string_view& value, std::string& reason) {
   std::vector<SchemeSpec> schemes;
   for (size_t begin = 0; begin < value.size();) {
     const size_t space = std::min(value.find(' ', begin), value.size());
@@ -38,7 +38,13 @@ bool set_schemes(RunOptions& options, std::string_view value, std::string& reaso
     begin = space + 1;
     if (part.empty()) continue;
     auto spec = parse_scheme(part, reason);
-    if (!spec) return false;
+    if (!spec) {
+      // The parser names the specification, as the callers do.
+      const std::string prefix = "scheme '" + std::string(part) + "': ";
+      if (reason.starts_with(prefix)) reason.erase(0, prefix.size());
+      value = part;
+      return false;
+    }
     const bool repeated = std::any_of(schemes.begin(), schemes.end(),
                                       [&](const SchemeSpec& s) { return s.text == spec->text; });
     if (!repeated) schemes.push_back(std::move(*spec));
@@ -51,7 +57,7 @@ bool set_schemes(RunOptions& options, std::string_view value, std::string& reaso
   return true;
 }
 
-bool set_tile(RunOptions& options, std::string_view value, std::string& reason) {
+bool set_tile(RunOptions& options, std::string_view& value, std::string& reason) {
   uint64_t side = 0;
   if (!parse_count(value, 8, 4096, side, reason)) return false;
   if (side % kBlockSide != 0) {
@@ -62,7 +68,7 @@ bool set_tile(RunOptions& options, std::string_view value, std::string& reason) 
   return true;
 }
 
-bool set_burst(RunOptions& options, std::string_view value, std::string& reason) {
+bool set_burst(RunOptions& options, std::string_view& value, std::string& reason) {
   uint64_t bits = 0;
   if (!parse_count(value, 16, kMaxRawBlockBits, bits, reason)) return false;
   if ((bits & (bits - 1)) != 0) {
@@ -73,7 +79,7 @@ bool set_burst(RunOptions& options, std::string_view value, std::string& reason)
   return true;
 }
 
-bool set_verify(RunOptions& options, std::string_view value, std::string& reason) {
+bool set_verify(RunOptions& options, std::string_view& value, std::string& reason) {
   if (value == "1" || value == "true" || value == "on" || value == "yes") {
     options.model.verify = true;
   } else if (value == "0" || value == "false" || value == "off" || value == "no") {
@@ -85,18 +91,18 @@ bool set_verify(RunOptions& options, std::string_view value, std::string& reason
   return true;
 }
 
-bool set_frames(RunOptions& options, std::string_view value, std::string& reason) {
+bool set_frames(RunOptions& options, std::string_view& value, std::string& reason) {
   auto set = FrameSet::parse(value, reason);
   if (!set) return false;
   options.frames = std::move(*set);
   return true;
 }
 
-bool set_every(RunOptions& options, std::string_view value, std::string& reason) {
+bool set_every(RunOptions& options, std::string_view& value, std::string& reason) {
   return parse_count(value, 1, 0xFFFFFFFFu, options.every, reason);
 }
 
-bool set_on_full(RunOptions& options, std::string_view value, std::string& reason) {
+bool set_on_full(RunOptions& options, std::string_view& value, std::string& reason) {
   if (value != "block" && value != "drop") {
     reason = "neither block nor drop";
     return false;
@@ -105,7 +111,7 @@ bool set_on_full(RunOptions& options, std::string_view value, std::string& reaso
   return true;
 }
 
-bool set_output(RunOptions& options, std::string_view value, std::string& reason) {
+bool set_output(RunOptions& options, std::string_view& value, std::string& reason) {
   if (value.empty()) {
     reason = "no folder named";
     return false;
@@ -114,7 +120,7 @@ bool set_output(RunOptions& options, std::string_view value, std::string& reason
   return true;
 }
 
-bool set_log_level(RunOptions& options, std::string_view value, std::string& reason) {
+bool set_log_level(RunOptions& options, std::string_view& value, std::string& reason) {
   for (std::string_view level : {"trace", "debug", "info", "warn", "error", "off"}) {
     if (value != level) continue;
     options.log_level = value;
@@ -124,7 +130,7 @@ bool set_log_level(RunOptions& options, std::string_view value, std::string& rea
   return false;
 }
 
-bool set_log_file(RunOptions& options, std::string_view value, std::string&) {
+bool set_log_file(RunOptions& options, std::string_view& value, std::string&) {
   options.log_file = value;
   return true;
 }
@@ -164,7 +170,7 @@ bool set_run_option(RunOptions& options, std::string_view name, std::string_view
     if (name != entry.name) continue;
     std::string reason;
     if (entry.set(options, value, reason)) return true;
-    error = std::string(name) + " " + std::string(value) + ": " + reason;
+    error = std::string(name) + " " + (value.empty() ? "''" : std::string(value)) + ": " + reason;
     return false;
   }
   error = std::string(name) + ": unknown option";
@@ -188,11 +194,12 @@ std::map<std::string, std::string> to_environment(const RunOptions& options) {
 
 bool from_environment(RunOptions& options, std::string& error) {
   for (const OptionEntry& entry : kOptions) {
-    const char* value = std::getenv(entry.variable);
-    if (value == nullptr || *value == '\0') continue;
+    const char* text = std::getenv(entry.variable);
+    if (text == nullptr || *text == '\0') continue;
     std::string reason;
+    std::string_view value = text;
     if (entry.set(options, value, reason)) continue;
-    error = std::string(entry.variable) + "=" + value + ": " + reason;
+    error = std::string(entry.variable) + "=" + std::string(value) + ": " + reason;
     return false;
   }
   return true;

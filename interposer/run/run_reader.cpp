@@ -227,7 +227,7 @@ bool close_run(const std::string& path, const RunEnd& end, RunRecord& record, st
   if (!read_tables(path, record, tables, error)) return false;
   if (!cut_file(path + "/frames.csv", tables.frames_text, tables.frames_end, error)) return false;
   if (!cut_file(path + "/schemes.csv", tables.schemes_text, tables.schemes_end, error)) return false;
-  if (record.state != "failed") {
+  if (record.state == "running" || (end.signal && record.state != "failed")) {
     record.state = end.state;
     record.reason = end.reason;
   }

@@ -45,8 +45,9 @@ struct RunEnd {
 };
 
 /// Closes a run whose program has ended: cuts off a torn last row and the rows of an incomplete frame, and
-/// replaces run.json by one with totals over what is there. A state "failed" that the run itself has noted
-/// stays. `record` receives the run as it then is. False and one line in `error` on failure.
+/// replaces run.json by one with totals over what is there. What the run itself has noted ("finished",
+/// "failed") stays, except that a signal overrules "finished". `record` receives the run as it then is. False
+/// and one line in `error` on failure.
 bool close_run(const std::string& path, const RunEnd& end, RunRecord& record, std::string& error);
 
 }  // namespace tilepress
