@@ -18,7 +18,10 @@ std::string describe(const CLI::App& app, const CLI::ParseError& error) {
       return (extras.front().starts_with("-") ? "unknown option '" : "unexpected argument '") +
              extras.front() + "'";
   }
-  return error.what();
+  std::string text = error.what();
+  if (const std::string prefix = "INI was not able to parse "; text.starts_with(prefix))
+    text = "--config: unknown option '" + text.substr(prefix.size()) + "'";
+  return text;
 }
 
 }  // namespace

@@ -10,6 +10,8 @@ namespace tilepress {
 namespace {
 
 constexpr Verb kVerbs[] = {
+    {"run", "run a program and capture every frame it presents", verb_run},
+    {"frames", "take frames from images or raw files", verb_frames},
     {"schemes", "list the schemes and their options", verb_schemes},
     {"doctor", "tell what this machine offers and what is missing", verb_doctor},
 };

@@ -30,7 +30,7 @@ std::vector<CLI::ConfigItem> TomlConfig::from_config(std::istream& input) const 
     throw CLI::ConfigError("config: line " + std::to_string(error.source().begin.line) + ": " +
                            std::string(error.description()));
   }
-  std::vector<CLI::ConfigItem> items;
+  std::vector<CLI::ConfigItem> found;
   for (const auto& [key_node, node] : table) {
     const std::string key(key_node.str());
     CLI::ConfigItem item;
@@ -40,9 +40,9 @@ std::vector<CLI::ConfigItem> TomlConfig::from_config(std::istream& input) const 
     } else {
       item.inputs.push_back(scalar_text(node, key));
     }
-    items.push_back(std::move(item));
+    found.push_back(std::move(item));
   }
-  return items;
+  return found;
 }
 
 }  // namespace tilepress

@@ -1,0 +1,268 @@
+// Image frames: OpenImageIO for images, plain reads for raw frames.
+#include "image_frames.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <cstring>
+
+namespace tilepress {
+
+struct ImageFrames::Source {
+  std::string path;
+  int subimage = 0;
+  bool raw = false;
+};
+
+struct ImageFrames::Reader {
+  std::string path;
+  OIIO::ImageInput::unique_ptr input;
+};
+
+namespace {
+
+std::string first_line(std::string text) {
+  text.erase(std::min(text.find('\n'), text.size()));
+  while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
+  return text;
+}
+
+/// Takes standard error away while it lives: libpng and its kin print there what they also report. One at a
+/// time.
+class QuietStandardError {
+ public:
+  QuietStandardError() : saved_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)) {
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (saved_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
+    if (nowhere >= 0) close(nowhere);
+  }
+  ~QuietStandardError() {
+    if (saved_ < 0) return;
+    dup2(saved_, STDERR_FILENO);
+    close(saved_);
+  }
+  QuietStandardError(const QuietStandardError&) = delete;
+  QuietStandardError& operator=(const QuietStandardError&) = delete;
+
+ private:
+  int saved_;
+};
+
+/// Opens an image with its alpha left as stored.
+OIIO::ImageInput::unique_ptr open_input(const std::string& path, std::string& error) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) {
+    error = path + ": " + std::strerror(errno);
+    return nullptr;
+  }
+  if (S_ISDIR(status.st_mode)) {
+    error = path + ": is a folder; name its images";
+    return nullptr;
+  }
+  OIIO::ImageSpec wishes;
+  wishes.attribute("oiio:UnassociatedAlpha", 1);
+  auto input = OIIO::ImageInput::open(path, &wishes);
+  if (!input) {
+    std::string reason = first_line(OIIO::geterror());
+    if (reason.find("could not find a format reader") != std::string::npos) reason = "not an image";
+    if (access(path.c_str(), R_OK) != 0) reason = std::strerror(errno);
+    error = path + ": " + (reason.empty() ? "not an image" : reason);
+  }
+  return input;
+}
+
+/// The reason why an image cannot be taken as it is, or empty.
+std::string refusal(const OIIO::ImageSpec& spec) {
+  if (spec.format != OIIO::TypeDesc::UINT8)
+    return std::string("has ") + spec.format.c_str() +
+           " channels; only 8 bits a channel are taken, nothing is narrowed";
+  if (spec.nchannels < 1 || spec.nchannels > 4)
+    return "has " + std::to_string(spec.nchannels) + " channels, not 1 to 4";
+  if (spec.depth > 1) return "is a volume";
+  return {};
+}
+
+/// Spreads 1 to 4 channels to R,G,B,A in place, from the last pixel backwards. `pixels` has room for 4.
+void spread_channels(std::vector<std::byte>& pixels, size_t count, int channels) {
+  if (channels == 4) return;
+  const size_t stride = static_cast<size_t>(channels);
+  for (size_t i = count; i-- > 0;) {
+    const std::byte* from = pixels.data() + i * stride;
+    const bool gray = channels < 3;
+    const std::byte red = from[0], green = from[gray ? 0 : 1], blue = from[gray ? 0 : 2];
+    const std::byte alpha = channels == 2 ? from[1] : std::byte{255};
+    std::byte* to = pixels.data() + i * 4;
+    to[0] = red, to[1] = green, to[2] = blue, to[3] = alpha;
+  }
+}
+
+/// Reads until `size` bytes or the end; the bytes read, or -1.
+ssize_t read_fully(int fd, std::byte* to, size_t size) {
+  size_t done = 0;
+  while (done < size) {
+    const ssize_t got = ::read(fd, to + done, size - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return -1;
+    if (got == 0) break;
+    done += static_cast<size_t>(got);
+  }
+  return static_cast<ssize_t>(done);
+}
+
+std::string size_text(FrameSize size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+}  // namespace
+
+std::optional<FrameSize> parse_frame_size(const std::string& text) {
+  FrameSize size;
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, size.width);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != 'x') return std::nullopt;
+  const auto second = std::from_chars(first.ptr + 1, end, size.height);
+  if (second.ec != std::errc() || second.ptr != end) return std::nullopt;
+  const auto fits = [](uint32_t side) { return side >= 1 && side <= kMaxSurfaceSide; };
+  return fits(size.width) && fits(size.height) ? std::optional(size) : std::nullopt;
+}
+
+ImageFrames::ImageFrames() = default;
+ImageFrames::~ImageFrames() = default;
+
+std::optional<uint64_t> ImageFrames::count() const {
+  return streamed_ ? std::nullopt : std::optional<uint64_t>(sources_.size());
+}
+
+bool ImageFrames::accept(const std::string& name, FrameSize size, std::string& error) {
+  if (size.width > kMaxSurfaceSide || size.height > kMaxSurfaceSide) {
+    error = name + ": is " + size_text(size) + ", a side is more than " + std::to_string(kMaxSurfaceSide);
+    return false;
+  }
+  if (size_ == FrameSize{}) size_ = size;
+  if (size == size_) return true;
+  error = name + ": is " + size_text(size) + ", the sequence is " + size_text(size_);
+  return false;
+}
+
+bool ImageFrames::open_image(const std::string& path, std::string& error) {
+  const QuietStandardError quiet;
+  const auto input = open_input(path, error);
+  if (!input) return false;
+  for (int subimage = 0; input->seek_subimage(subimage, 0); ++subimage) {
+    const OIIO::ImageSpec spec = input->spec(subimage, 0);
+    const std::string name = subimage == 0 ? path : path + " image " + std::to_string(subimage);
+    if (const std::string reason = refusal(spec); !reason.empty()) {
+      error = name + ": " + reason;
+      return false;
+    }
+    if (!accept(name, {static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height)}, error))
+      return false;
+    if (spec.nchannels == 2 || spec.nchannels == 4) format_ = PixelFormat::kRgba8;
+    sources_.push_back({path, subimage, false});
+  }
+  input->geterror();  // the seek past the last image
+  return true;
+}
+
+bool ImageFrames::open_raw(const std::string& path, std::string& error) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0 || access(path.c_str(), R_OK) != 0) {
+    error = path + ": " + std::strerror(errno);
+    return false;
+  }
+  const uint64_t wanted = uint64_t{size_.width} * size_.height * 4;
+  if (S_ISDIR(status.st_mode) || static_cast<uint64_t>(status.st_size) != wanted) {
+    error = path + ": " + std::to_string(status.st_size) + " bytes, a raw frame of " + size_text(size_) +
+            " has " + std::to_string(wanted);
+    return false;
+  }
+  format_ = PixelFormat::kRgba8;
+  sources_.push_back({path, 0, true});
+  return true;
+}
+
+bool ImageFrames::open(const std::vector<std::string>& paths, std::optional<FrameSize> raw_size,
+                       std::string& error) {
+  if (raw_size) size_ = *raw_size;
+  for (const std::string& path : paths) {
+    if (path == "-") {
+      if (paths.size() > 1) error = "-: standard input cannot be mixed with files";
+      if (!raw_size) error = "-: raw frames on standard input need --size WxH";
+      if (!error.empty()) return false;
+      streamed_ = true;
+      format_ = PixelFormat::kRgba8;
+      return true;
+    }
+    const bool opened = raw_size && path.ends_with(".rgba") ? open_raw(path, error) : open_image(path, error);
+    if (!opened) {
+      if (!raw_size && path.ends_with(".rgba") && access(path.c_str(), R_OK) == 0)
+        error = path + ": a raw frame needs --size WxH";
+      return false;
+    }
+  }
+  return true;
+}
+
+ImageFrames::Outcome ImageFrames::read_stream(ImageFrame& out, std::string& error) {
+  const ssize_t got = read_fully(STDIN_FILENO, out.pixels.data(), out.pixels.size());
+  if (got == 0) return Outcome::kEnd;
+  if (got == static_cast<ssize_t>(out.pixels.size())) return Outcome::kFrame;
+  error = got < 0 ? std::string("-: ") + std::strerror(errno)
+                  : "-: the last frame has " + std::to_string(got) + " of " +
+                        std::to_string(out.pixels.size()) + " bytes";
+  return Outcome::kFailed;
+}
+
+ImageFrames::Outcome ImageFrames::read(uint64_t index, ImageFrame& out, std::string& error) {
+  const auto begin = std::chrono::steady_clock::now();
+  const size_t pixel_count = size_t{size_.width} * size_.height;
+  out.pixels.resize(pixel_count * 4);
+  Outcome outcome = Outcome::kFrame;
+  if (streamed_) {
+    outcome = read_stream(out, error);
+  } else if (index >= sources_.size()) {
+    outcome = Outcome::kEnd;
+  } else if (const Source& source = sources_[index]; source.raw) {
+    const int fd = ::open(source.path.c_str(), O_RDONLY | O_CLOEXEC);
+    const ssize_t got = fd < 0 ? -1 : read_fully(fd, out.pixels.data(), out.pixels.size());
+    if (got != static_cast<ssize_t>(out.pixels.size())) {
+      error =
+          source.path + ": " + (got < 0 ? std::strerror(errno) : "shorter than when it was first looked at");
+      outcome = Outcome::kFailed;
+    }
+    if (fd >= 0) close(fd);
+  } else {
+    const QuietStandardError quiet;
+    // Kept open from frame to frame: seeking in an animation costs decoding what lies before.
+    if (!reader_ || reader_->path != source.path) {
+      reader_ = std::make_unique<Reader>(Reader{source.path, open_input(source.path, error)});
+      if (!reader_->input) return Outcome::kFailed;
+    }
+    OIIO::ImageInput& input = *reader_->input;
+    const OIIO::ImageSpec spec = input.spec(source.subimage, 0);
+    const bool same = refusal(spec).empty() && static_cast<uint32_t>(spec.width) == size_.width &&
+                      static_cast<uint32_t>(spec.height) == size_.height;
+    if (!same) {
+      error = source.path + ": has changed since it was first looked at";
+      outcome = Outcome::kFailed;
+    } else if (!input.read_image(source.subimage, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8,
+                                 out.pixels.data())) {
+      const std::string reason = first_line(input.geterror());
+      error = source.path + ": " + (reason.empty() ? "cannot be decoded" : reason);
+      outcome = Outcome::kFailed;
+    } else {
+      spread_channels(out.pixels, pixel_count, spec.nchannels);
+    }
+  }
+  out.decode_ns = static_cast<uint64_t>(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin).count());
+  return outcome;
+}
+
+}  // namespace tilepress

@@ -1,0 +1,68 @@
+// Image frames: a sequence of frames from image files, raw files or standard input.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tilepress/surface.h"
+
+namespace tilepress {
+
+struct FrameSize {
+  uint32_t width = 0, height = 0;
+  bool operator==(const FrameSize&) const = default;
+};
+
+/// Parses "720x1280"; nothing unless both sides are in 1..kMaxSurfaceSide.
+std::optional<FrameSize> parse_frame_size(const std::string& text);
+
+/// One decoded frame: R,G,B,A bytes, rows from the top, tight.
+struct ImageFrame {
+  std::vector<std::byte> pixels;
+  uint64_t decode_ns = 0;
+};
+
+/// The frames of the files in the order given. A file with several images (an animation, a movie, pages)
+/// gives as many frames; "-" is standard input with raw RGBA frames one after the other, as many as come. Not
+/// thread-safe.
+class ImageFrames {
+ public:
+  ImageFrames();
+  ~ImageFrames();
+  /// Reads every file's header, decodes nothing. Without `raw_size` there are no raw files. False and one
+  /// line in `error` if a file is missing, unreadable, of a kind that would have to be narrowed (more than 8
+  /// bits a channel), or not of the size of the first.
+  bool open(const std::vector<std::string>& paths, std::optional<FrameSize> raw_size, std::string& error);
+
+  FrameSize size() const { return size_; }
+  /// kRgba8 if any image has alpha, else kRgbx8.
+  PixelFormat format() const { return format_; }
+  /// Nothing when frames come from standard input.
+  std::optional<uint64_t> count() const;
+  /// True if frames come from standard input: they must be read in order, each once.
+  bool streamed() const { return streamed_; }
+
+  enum class Outcome { kFrame, kEnd, kFailed };
+  /// Decodes frame `index`. kEnd past the last one; kFailed with one line in `error`.
+  Outcome read(uint64_t index, ImageFrame& out, std::string& error);
+
+ private:
+  struct Source;
+  struct Reader;
+  bool open_image(const std::string& path, std::string& error);
+  bool open_raw(const std::string& path, std::string& error);
+  bool accept(const std::string& name, FrameSize size, std::string& error);
+  Outcome read_stream(ImageFrame& out, std::string& error);
+
+  std::vector<Source> sources_;     ///< one per frame
+  std::unique_ptr<Reader> reader_;  ///< the file last opened
+  FrameSize size_;
+  PixelFormat format_ = PixelFormat::kRgbx8;
+  bool streamed_ = false;
+};
+
+}  // namespace tilepress

@@ -1,0 +1,69 @@
+// Progress line: carriage returns for people, JSON lines for programs.
+#include "progress_line.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace tilepress {
+namespace {
+
+constexpr std::chrono::milliseconds kPeriod{100};
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<uint64_t>(seconds + 0.5);
+  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+std::optional<ProgressMode> parse_progress_mode(const std::string& text) {
+  if (text == "auto") return ProgressMode::kAuto;
+  if (text == "never") return ProgressMode::kNever;
+  if (text == "json") return ProgressMode::kJson;
+  return std::nullopt;
+}
+
+ProgressLine::ProgressLine(ProgressMode mode, std::string what)
+    : mode_(mode), what_(std::move(what)), begin_(std::chrono::steady_clock::now()), shown_(begin_) {
+  if (mode_ == ProgressMode::kAuto && isatty(STDERR_FILENO) == 0) mode_ = ProgressMode::kNever;
+}
+
+ProgressLine::~ProgressLine() {
+  clear();
+}
+
+void ProgressLine::show(uint64_t done, std::optional<uint64_t> total) {
+  const auto now = std::chrono::steady_clock::now();
+  const bool last = total && done >= *total;
+  if (mode_ == ProgressMode::kNever || (now - shown_ < kPeriod && !(last && mode_ == ProgressMode::kJson)))
+    return;
+  shown_ = now;
+  const double elapsed = std::chrono::duration<double>(now - begin_).count();
+  const double per_second = elapsed > 0 ? static_cast<double>(done) / elapsed : 0;
+  std::optional<double> left;
+  if (total && per_second > 0) left = static_cast<double>(*total - done) / per_second;
+  if (mode_ == ProgressMode::kJson) {
+    nlohmann::ordered_json json = {{"progress", what_}, {"frames_done", done}, {"elapsed_s", elapsed}};
+    if (total) json["frames_total"] = *total;
+    if (left) json["eta_s"] = *left;
+    std::fprintf(stderr, "%s\n", json.dump().c_str());
+    return;
+  }
+  std::string line = fmt::format("{}: {}", what_, done);
+  if (total) line += fmt::format("/{} frames, {} %", *total, *total > 0 ? done * 100 / *total : 100);
+  line += fmt::format(", {:.1f} frames/s", per_second);
+  if (left) line += ", " + duration_text(*left) + " left";
+  std::fprintf(stderr, "\r%s\033[K", line.c_str());
+  visible_ = true;
+}
+
+void ProgressLine::clear() {
+  if (visible_) std::fputs("\r\033[K", stderr);
+  visible_ = false;
+}
+
+}  // namespace tilepress

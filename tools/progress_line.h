@@ -1,0 +1,32 @@
+// Progress line: how far a verb is, on standard error.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace tilepress {
+
+enum class ProgressMode : uint8_t { kAuto, kNever, kJson };
+
+std::optional<ProgressMode> parse_progress_mode(const std::string& text);
+
+/// kAuto shows one line with an estimate of the time left, rewritten in place, if standard error is a
+/// terminal; kJson prints an object per line whatever standard error is. At most ten times a second.
+class ProgressLine {
+ public:
+  ProgressLine(ProgressMode mode, std::string what);
+  ~ProgressLine();  ///< takes the line away
+  /// `total`: nothing when it is not known.
+  void show(uint64_t done, std::optional<uint64_t> total);
+  void clear();
+
+ private:
+  ProgressMode mode_;
+  std::string what_;
+  std::chrono::steady_clock::time_point begin_, shown_;
+  bool visible_ = false;
+};
+
+}  // namespace tilepress

@@ -1,0 +1,13 @@
+// Shim path: where the library lies that is preloaded.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace tilepress {
+
+/// Looks for `library` relative to this executable: in an installed tree (../lib) and in a build tree
+/// (../interposer). Absolute. `looked` receives the places tried, for an error line.
+std::optional<std::string> find_shim(const std::string& library, std::string& looked);
+
+}  // namespace tilepress

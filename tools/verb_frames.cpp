@@ -1,0 +1,245 @@
+// tilepress frames: a sequence of images through the schemes.
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <future>
+
+#include "command_line.h"
+#include "common_options.h"
+#include "image_frames.h"
+#include "progress_line.h"
+#include "summary_table.h"
+#include "tilepress/run_directory.h"
+#include "verb.h"
+
+namespace tilepress {
+namespace {
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  tilepress frames -o out shots/*.png\n"
+    "  tilepress frames -s vdcp -s ras:ycocg=1 --verify -o out shots/*.png\n"
+    "  tilepress frames --size 720x1280 -o - frame-*.rgba > schemes.csv\n"
+    "  ffmpeg -i clip.mkv -f rawvideo -pix_fmt rgba - | tilepress frames --size 640x360 -o out -\n";
+
+struct FramesOptions {
+  RunOptions run;
+  std::vector<std::string> images;
+  std::optional<FrameSize> size;
+  ProgressMode progress = ProgressMode::kAuto;
+  uint32_t jobs = 1;
+  bool force = false;
+  bool quiet = false;
+  bool to_stdout() const { return run.output == "-"; }
+};
+
+/// Where rows go: a run directory, or schemes.csv on standard output.
+class RowSink {
+ public:
+  bool open(const FramesOptions& options, const RunInfo& info, std::string& error) {
+    for (const SchemeSpec& spec : options.run.schemes) names_.push_back(spec.text);
+    if (options.to_stdout()) return print(schemes_csv_header(), error);
+    if (options.force)
+      for (const char* name : {"/frames.csv", "/schemes.csv", "/run.json"})
+        unlink((options.run.output + name).c_str());
+    if (!writer_.create(options.run.output, info, options.run)) {
+      error = writer_.error();
+      if (error.ends_with("already holds a run")) error += " (--force replaces it)";
+    }
+    return error.empty();
+  }
+  bool append(const FrameStatistics& frame, std::string& error) {
+    if (!writer_.is_open()) {
+      text_.clear();
+      append_schemes_rows(frame, names_, text_);
+      return print(text_, error);
+    }
+    if (!writer_.append(frame)) error = writer_.error();
+    return error.empty();
+  }
+  void finish(const RunCounts& counts, const std::string& state, const std::string& reason) {
+    if (!writer_.is_open()) return;
+    writer_.set_counts(counts);
+    writer_.finish(state, reason);
+  }
+
+ private:
+  bool print(const std::string& text, std::string& error) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
+      return true;
+    error = std::string("standard output: ") + std::strerror(errno);
+    return false;
+  }
+  RunWriter writer_;
+  std::vector<std::string> names_;
+  std::string text_;
+};
+
+/// What one step of decoding gives.
+struct Decoded {
+  ImageFrames::Outcome outcome = ImageFrames::Outcome::kEnd;
+  uint64_t number = 0;
+  uint64_t skipped = 0;  ///< frames passed over on the way
+  ImageFrame frame;
+  std::string error;
+};
+
+/// Decodes the next frame that was asked for, from `number` on.
+Decoded decode_next(ImageFrames& images, const RunOptions& options, uint64_t number, ImageFrame reuse) {
+  Decoded out;
+  out.frame = std::move(reuse);
+  for (;; ++number, ++out.skipped) {
+    const bool taken = options.takes(number);
+    const bool over = images.count() && number >= *images.count();
+    if (over || (options.frames.last() && number > *options.frames.last() && images.streamed())) return out;
+    if (!taken && !images.streamed()) continue;
+    out.number = number;
+    out.outcome = images.read(number, out.frame, out.error);
+    if (taken || out.outcome != ImageFrames::Outcome::kFrame) return out;
+  }
+}
+
+/// Runs all frames. Fills `record` with what the summary shows; returns false and one line in `error` on
+/// failure.
+bool process_frames(ImageFrames& images, const FramesOptions& options, RowSink& sink, RunRecord& record,
+                    std::string& error) {
+  SurfaceEngine engine(options.run.schemes, options.run.model);
+  ProgressLine progress(options.quiet ? ProgressMode::kNever : options.progress, "frames");
+  for (const SchemeSpec& spec : options.run.schemes) record.scheme_names.push_back(spec.text);
+  record.totals.assign(options.run.schemes.size(), SchemeStatistics{});
+  for (SchemeStatistics& total : record.totals) total.burst_bits = options.run.model.burst_bits;
+  const auto begin = std::chrono::steady_clock::now();
+  const FrameSize size = images.size();
+  FrameStatistics statistics;
+  ImageFrame spare;
+  auto next = std::async(std::launch::async, [&] { return decode_next(images, options.run, 0, {}); });
+  for (;;) {
+    Decoded decoded = next.get();
+    record.counts.seen += decoded.skipped;
+    record.counts.skipped += decoded.skipped;
+    if (decoded.outcome == ImageFrames::Outcome::kFailed) {
+      error = decoded.error;
+      return false;
+    }
+    if (decoded.outcome == ImageFrames::Outcome::kEnd) return true;
+    // The next image is decoded while this one is compressed.
+    next = std::async(std::launch::async,
+                      [&images, &options, number = decoded.number + 1, reuse = std::move(spare)]() mutable {
+                        return decode_next(images, options.run, number, std::move(reuse));
+                      });
+    const SurfaceView view{decoded.frame.pixels.data(),
+                           static_cast<ptrdiff_t>(size.width) * 4,
+                           size.width,
+                           size.height,
+                           images.format(),
+                           ByteOrder::kRgba};
+    statistics.frame = decoded.number;
+    statistics.time_ns = static_cast<uint64_t>(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin)
+            .count());
+    statistics.readback_ns = decoded.frame.decode_ns;
+    engine.process(view, statistics);
+    spare = std::move(decoded.frame);
+    ++record.counts.seen;
+    ++record.counts.captured;
+    if (!sink.append(statistics, error)) return false;
+    for (size_t i = 0; i < record.totals.size() && !statistics.warmup; ++i)
+      record.totals[i] += statistics.schemes[i];
+    record.measured_frames += statistics.warmup ? 0 : 1;
+    for (size_t i = 0; i < record.totals.size(); ++i)
+      if (statistics.schemes[i].mismatched_blocks > 0)
+        record.reason =
+            "--verify: " + record.scheme_names[i] + ": frame " + std::to_string(statistics.frame) + ": " +
+            std::to_string(statistics.schemes[i].mismatched_blocks) + " blocks differ after decoding";
+    if (record.frames.empty()) record.frames.push_back(statistics);
+    progress.show(decoded.number + 1, images.count());
+  }
+}
+
+int parse(int argc, char** argv, FramesOptions& options, std::optional<int>& status) {
+  CLI::App app(
+      "Takes frames from images, in the order given, and writes frames.csv, schemes.csv and run.json.");
+  app.footer(kExamples);
+  add_run_options(app, options.run);
+  app.add_option("IMAGE", options.images,
+                 "What OpenImageIO reads (8 bits a channel), raw .rgba files, or - for raw frames")
+      ->type_name("...")
+      ->required();
+  app.add_option_function<std::string>(
+         "--size",
+         [&](const std::string& text) {
+           options.size = parse_frame_size(text);
+           if (!options.size)
+             throw CLI::ValidationError("--size " + text + ": not WxH with sides in 1..65535");
+         },
+         "Size of raw .rgba frames")
+      ->type_name("WxH");
+  app.add_option("-j,--jobs", options.jobs, "Threads (default: 1)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
+  app.add_option_function<std::string>(
+         "--progress",
+         [&](const std::string& text) {
+           const auto mode = parse_progress_mode(text);
+           if (!mode) throw CLI::ValidationError("--progress " + text + ": not one of auto, never, json");
+           options.progress = *mode;
+         },
+         "Progress on standard error (default: auto, a line on a terminal)")
+      ->type_name("auto|never|json");
+  app.add_flag("--force", options.force, "Replace the run that the folder holds");
+  app.add_flag("-q,--quiet", options.quiet, "No progress and no summary");
+  status = parse_command_line(app, argc, argv);
+  return 0;
+}
+
+}  // namespace
+
+int verb_frames(int argc, char** argv) {
+  FramesOptions options;
+  std::optional<int> status;
+  parse(argc, argv, options, status);
+  if (status) return *status;
+
+  std::string error;
+  ImageFrames images;
+  if (!images.open(options.images, options.size, error))
+    return fail(error.ends_with("--size WxH") ? kExitUsage : kExitFailed, error);
+  if (const auto count = images.count()) {
+    uint64_t wanted = 0;
+    for (uint64_t number = 0; number < *count && wanted == 0; ++number) wanted += options.run.takes(number);
+    if (wanted == 0)
+      return fail(kExitNothingCaptured,
+                  "--frames and --every select none of the frames 0.." + std::to_string(*count - 1));
+  }
+
+  RunInfo info;
+  info.command.assign(argv, argv + argc);
+  info.command.insert(info.command.begin(), "tilepress");
+  info.program = "tilepress";
+  info.pid = getpid();
+  info.via = "frames";
+  RowSink sink;
+  if (!sink.open(options, info, error)) return fail(kExitFailed, error);
+  RunRecord record;
+  bool good = process_frames(images, options, sink, record, error);
+  if (good && !record.reason.empty()) {
+    error = record.reason;
+    good = false;
+  }
+  sink.finish(record.counts, good ? "finished" : "failed", error);
+  if (!options.quiet && record.counts.captured > 0) {
+    std::string title = "frames";
+    std::fputs(summary_table(record, title).c_str(), stderr);
+    if (!options.to_stdout())
+      std::fprintf(stderr, "  rows: %s/schemes.csv and frames.csv\n", options.run.output.c_str());
+  }
+  if (!good) return fail(kExitFailed, error);
+  if (record.counts.captured == 0) return fail(kExitNothingCaptured, "no frame came on standard input");
+  return kExitDone;
+}
+
+}  // namespace tilepress
