@@ -12,6 +12,7 @@
 #include "block_check.h"
 #include "dcp/ccd.h"
 #include "dcp/fvc.h"
+#include "memory/surface_store.h"
 #include "ras/ras_stream.h"
 #include "statistics/frame_metrics.h"
 #include "tilepress/scheme.h"
@@ -38,6 +39,7 @@ struct Lane {
   SchemeNeeds needs;
   Collector* collector = nullptr;
   uint32_t csb_bits = 0;
+  SurfaceStore store;
 };
 
 }  // namespace
@@ -52,6 +54,7 @@ struct SurfaceEngine::State {
   BlockCheck check;
   uint64_t ordinal = 0;
   bool needs_ras = false, needs_ras_ycocg = false;
+  std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere
 
   void open(const FormatTraits& format);
   Collector& collector_for(const FvcConfig& config, const FormatTraits& format);
@@ -95,7 +98,9 @@ void SurfaceEngine::State::begin_frame(FrameStatistics& out) {
   for (size_t i = 0; i < lanes.size(); ++i) {
     Lane& lane = lanes[i];
     const Ccd* ccd = lane.collector != nullptr && lane.collector->has_ccd ? &lane.collector->ccd : nullptr;
-    lane.encoder->begin_frame({.plane = now, .ordinal = ordinal, .ccd = ccd});
+    const FrameContext frame{.plane = now, .ordinal = ordinal, .ccd = ccd};
+    lane.encoder->begin_frame(frame);
+    if (!surfaces.empty()) lane.store.begin_frame(specs[i], options, frame, *lane.encoder, surfaces[i]);
     lane.csb_bits = lane.encoder->csb_bits();
     SchemeStatistics& scheme = out.schemes[i];
     scheme.burst_bits = options.burst_bits;
@@ -126,7 +131,7 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
   if (needs_ras) context.ras_bits = ras_stream_bits(block, format, false);
   if (needs_ras_ycocg) context.ras_ycocg_bits = ras_stream_bits(block, format, true);
   for (size_t i = 0; i < lanes.size(); ++i) {
-    const Lane& lane = lanes[i];
+    Lane& lane = lanes[i];
     SchemeStatistics& scheme = out.schemes[i];
     context.ccd_indices =
         lane.collector != nullptr && lane.collector->has_ccd ? lane.collector->indices.data() : nullptr;
@@ -134,6 +139,7 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
     scheme.payload_bits += payload_bits;
     scheme.bursts += (payload_bits + options.burst_bits - 1) / options.burst_bits;
     lane.encoder->account(context, payload_bits, scheme);
+    if (!surfaces.empty()) lane.store.put(*lane.encoder, context);
     if (lane.decoder) {
       ++scheme.checked_blocks;
       scheme.mismatched_blocks += !check.round_trip(*lane.encoder, *lane.decoder, context, payload_bits);
@@ -175,6 +181,13 @@ uint64_t SurfaceEngine::frames() const {
 }
 
 void SurfaceEngine::process(const SurfaceView& frame, FrameStatistics& out) {
+  process(frame, out, {});
+}
+
+void SurfaceEngine::process(const SurfaceView& frame, FrameStatistics& out,
+                            std::span<CompressedSurface> surfaces) {
+  assert(surfaces.empty() || surfaces.size() == state_->specs.size());
+  state_->surfaces = surfaces;
   const auto begin = std::chrono::steady_clock::now();
   State& state = *state_;
   const FormatTraits& format = traits(frame.format);

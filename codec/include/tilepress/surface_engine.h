@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "tilepress/scheme_spec.h"
@@ -10,6 +11,8 @@
 #include "tilepress/surface.h"
 
 namespace tilepress {
+
+struct CompressedSurface;
 
 /// The modelled hardware.
 struct ModelOptions {
@@ -28,10 +31,13 @@ class SurfaceEngine {
   SurfaceEngine(SurfaceEngine&&) noexcept;
   SurfaceEngine& operator=(SurfaceEngine&&) noexcept;
 
-  /// Processes the surface's next frame. Fills width, height, format, warmup, encode_ns, metrics and schemes of
-  /// `out`; leaves frame, surface, time_ns and readback_ns as they are. The vectors of `out` are re-used.
+  /// Processes the surface's next frame. Fills width, height, format, warmup, encode_ns, metrics and schemes
+  /// of `out`; leaves frame, surface, time_ns and readback_ns as they are. The vectors of `out` are re-used.
   /// Precondition: a modelled format, and the shape of the frames before.
   void process(const SurfaceView& frame, FrameStatistics& out);
+  /// The same, and stores the frame as each scheme leaves it in memory: one surface per scheme, in their
+  /// order.
+  void process(const SurfaceView& frame, FrameStatistics& out, std::span<CompressedSurface> surfaces);
 
   /// Number of frames processed.
   uint64_t frames() const;

@@ -1,0 +1,56 @@
+// Compressed surface: a frame as memory holds it after compression (paper §Reading a Compressed Framebuffer
+// Surface, §Memory layout).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tilepress/block.h"
+#include "tilepress/pixel_format.h"
+#include "tilepress/scheme_spec.h"
+#include "tilepress/surface_engine.h"
+
+namespace tilepress {
+
+/// Blocks lie at fixed slots of S0 bytes, the size of a raw block, in raster order: block (bx, by) has number
+/// by · blocks_x + bx. A block uses the first payload bits of its slot; the rest stays empty. CSB and tables
+/// are bit strings, the most significant bit of a byte first, without gaps between blocks.
+/// Filled by SurfaceEngine::process; read by SurfaceReader.
+struct CompressedSurface {
+  SchemeSpec scheme;
+  PixelFormat format = PixelFormat::kRgba8;
+  uint32_t width = 0, height = 0;  ///< pixels
+  uint64_t ordinal = 0;            ///< 0 = first frame of the surface
+  uint32_t tile_side = 32;         ///< render tile it was committed in, pixels
+  uint32_t burst_bits = 128;
+  uint32_t csb_bits = 0;    ///< of one block
+  uint64_t table_bits = 0;  ///< rCCD or code table; 0 = none
+
+  std::vector<uint8_t> payload;  ///< blocks() · slot_bytes()
+  std::vector<uint8_t> csb;      ///< ceil(blocks() · csb_bits / 8)
+  std::vector<uint8_t> tables;   ///< ceil(table_bits / 8)
+
+  /// Payload bits of each block: bookkeeping of the encoder for files and statistics. No part of the memory
+  /// image: the reader finds sizes from CSB and payload.
+  std::vector<uint16_t> block_bits;
+
+  /// False and one line in `error` if a size, the format or a model parameter is out of its range. Only where
+  /// this holds may the numbers below be asked for.
+  bool possible(std::string& error) const;
+  /// possible(), and payload, CSB and tables have the lengths that follow; else false and one line in
+  /// `error`.
+  bool consistent(std::string& error) const;
+
+  uint32_t blocks_x() const { return (width + kBlockSide - 1) / kBlockSide; }
+  uint32_t blocks_y() const { return (height + kBlockSide - 1) / kBlockSide; }
+  uint64_t blocks() const { return uint64_t{blocks_x()} * blocks_y(); }
+  uint32_t raw_block_bits() const { return kBlockPixels * traits(format).pixel_bits; }
+  /// Bursts that a raw block takes.
+  uint32_t raw_block_bursts() const { return (raw_block_bits() + burst_bits - 1) / burst_bits; }
+  /// S0: a raw block in whole bursts; 256 bytes for 32-bit pixels.
+  uint32_t slot_bytes() const { return raw_block_bursts() * burst_bits / 8; }
+  uint64_t csb_plane_bits() const { return blocks() * csb_bits; }
+};
+
+}  // namespace tilepress
