@@ -12,6 +12,7 @@ namespace {
 constexpr Verb kVerbs[] = {
     {"run", "run a program and capture every frame it presents", verb_run},
     {"frames", "take frames from images or raw files", verb_frames},
+    {"info", "tell what recorded traces hold", verb_info},
     {"schemes", "list the schemes and their options", verb_schemes},
     {"doctor", "tell what this machine offers and what is missing", verb_doctor},
 };

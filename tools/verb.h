@@ -12,6 +12,7 @@ struct Verb {
 
 int verb_doctor(int argc, char** argv);
 int verb_frames(int argc, char** argv);
+int verb_info(int argc, char** argv);
 int verb_run(int argc, char** argv);
 int verb_schemes(int argc, char** argv);
 

@@ -1,0 +1,251 @@
+// Trace survey: counts frames and learns sizes and context versions from the recorded calls.
+#include "trace_survey.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "trace_fault.h"
+
+namespace tilepress {
+namespace {
+
+// Enumerants of EGL, GLX and GL, under their own names.
+constexpr int64_t EGL_HEIGHT = 0x3056, EGL_WIDTH = 0x3057, EGL_CONTEXT_MAJOR_VERSION = 0x3098,
+                  EGL_OPENGL_API = 0x30A2, EGL_CONTEXT_MINOR_VERSION = 0x30FB;
+constexpr int64_t GLX_WIDTH = 0x801D, GLX_HEIGHT = 0x801E, GLX_PBUFFER_HEIGHT = 0x8040,
+                  GLX_PBUFFER_WIDTH = 0x8041, GLX_CONTEXT_MAJOR_VERSION = 0x2091,
+                  GLX_CONTEXT_MINOR_VERSION = 0x2092, GLX_CONTEXT_PROFILE_MASK = 0x9126,
+                  GLX_CONTEXT_ES_PROFILE_BIT = 4;
+constexpr int64_t GL_RENDERER = 0x1F01, GL_VERSION = 0x1F02, GL_FRAMEBUFFER = 0x8D40,
+                  GL_DRAW_FRAMEBUFFER = 0x8CA9, GL_TIMESTAMP = 0x8E28;
+
+int64_t argument(const TraceCall& call, size_t position, int64_t otherwise = 0) {
+  return position < call.arguments.size() ? call.arguments[position].as_number(otherwise) : otherwise;
+}
+
+uint64_t handle(const TraceCall& call, size_t position) {
+  return static_cast<uint64_t>(argument(call, position));
+}
+
+/// Looks `key` up in a list of key, value, key, value, … that argument `position` holds.
+int64_t attribute(const TraceCall& call, size_t position, int64_t key, int64_t otherwise) {
+  if (position >= call.arguments.size()) return otherwise;
+  const std::vector<TraceValue>& list = call.arguments[position].items;
+  for (size_t i = 0; i + 1 < list.size(); i += 2)
+    if (list[i].as_number() == key) return list[i + 1].as_number(otherwise);
+  return otherwise;
+}
+
+std::string versioned(const char* api, int64_t major, int64_t minor) {
+  return std::string(api) + " " + std::to_string(major) + "." + std::to_string(minor);
+}
+
+}  // namespace
+
+const std::map<std::string_view, TraceSurvey::Handler>& TraceSurvey::handlers() {
+  using S = TraceSurvey;
+  // Presentations are those that a retracer repeats with a swap of its own: glXSwapBuffersMscOML or
+  // glFrameTerminatorGREMEDY end a frame in apitrace's eyes, but nothing reaches the screen in a replay.
+  static const std::map<std::string_view, Handler> kHandlers = {
+      {"eglSwapBuffers", &S::present_second},
+      {"eglSwapBuffersWithDamageEXT", &S::present_second},
+      {"eglSwapBuffersWithDamageKHR", &S::present_second},
+      {"glXSwapBuffers", &S::present_second},
+      {"wglSwapBuffers", &S::present_first},
+      {"wglSwapLayerBuffers", &S::present_first},
+      {"CGLFlushDrawable", &S::present_first},
+      {"eglMakeCurrent", &S::egl_make_current},
+      {"glXMakeCurrent", &S::glx_make_current},
+      {"glXMakeContextCurrent", &S::glx_make_context_current},
+      {"glXMakeCurrentReadSGI", &S::glx_make_context_current},
+      {"wglMakeCurrent", &S::wgl_make_current},
+      {"eglBindAPI", &S::egl_bind_api},
+      {"eglCreateContext", &S::egl_create_context},
+      {"eglCreatePbufferSurface", &S::egl_create_pbuffer},
+      {"eglQuerySurface", &S::egl_query_surface},
+      {"glXCreateContext", &S::glx_create_context},
+      {"glXCreateNewContext", &S::glx_create_context},
+      {"glXCreateContextAttribsARB", &S::glx_create_context_attributes},
+      {"glXCreatePbuffer", &S::glx_create_pbuffer},
+      {"glXQueryDrawable", &S::glx_query_drawable},
+      {"glViewport", &S::gl_viewport},
+      {"glBindFramebuffer", &S::gl_bind_framebuffer},
+      {"glBindFramebufferEXT", &S::gl_bind_framebuffer},
+      {"glBindFramebufferOES", &S::gl_bind_framebuffer},
+      {"glGetString", &S::gl_get_string},
+      {"glGetInteger64v", &S::gl_get_integer64},
+  };
+  return kHandlers;
+}
+
+bool TraceSurvey::watches(std::string_view function) {
+  return handlers().contains(function);
+}
+
+void TraceSurvey::see_function(std::string_view name) {
+  static constexpr std::array<std::pair<std::string_view, TraceApi>, 6> kPrefixes = {
+      {{"egl", TraceApi::kEgl},
+       {"glX", TraceApi::kGlx},
+       {"wgl", TraceApi::kWgl},
+       {"CGL", TraceApi::kCgl},
+       {"Direct", TraceApi::kDirect3d},
+       {"D3D", TraceApi::kDirect3d}}};
+  if (api_ != TraceApi::kUnknown) return;
+  for (const auto& [prefix, api] : kPrefixes)
+    if (name.starts_with(prefix)) api_ = api;
+}
+
+void TraceSurvey::see(const TraceCall& call, const TraceFunction& function) {
+  const auto thread = threads_.try_emplace(call.thread).first;
+  if (threads_.size() > kMaxHandles) fail_corrupt("too many threads");
+  if (!function.watched) return;
+  (this->*handlers().at(function.name))(call, thread->second);
+}
+
+TraceSurface& TraceSurvey::surface(uint64_t id) {
+  TraceSurface& surface = surfaces_[id];
+  if (surfaces_.size() > kMaxHandles) fail_corrupt("too many surfaces");
+  surface.id = id;
+  return surface;
+}
+
+TraceSurvey::Context& TraceSurvey::context(uint64_t id) {
+  Context& context = contexts_[id];
+  if (contexts_.size() > kMaxHandles) fail_corrupt("too many contexts");
+  return context;
+}
+
+void TraceSurvey::present(uint64_t id, Thread& thread) {
+  if (id == 0) return;
+  ++frames_;
+  if (++surface(id).frames == 1) presented_.push_back(id);
+  context(thread.context).presented = true;
+}
+
+void TraceSurvey::present_second(const TraceCall& call, Thread& thread) {
+  present(handle(call, 1), thread);
+}
+void TraceSurvey::present_first(const TraceCall& call, Thread& thread) {
+  present(handle(call, 0), thread);
+}
+
+void TraceSurvey::make_current(Thread& thread, uint64_t surface_id, uint64_t context_id,
+                               const TraceCall& call) {
+  if (call.result.as_number(1) == 0) return;  // refused: what was current stays so
+  thread.surface = surface_id;
+  thread.context = context_id;
+}
+
+void TraceSurvey::egl_make_current(const TraceCall& call, Thread& thread) {
+  make_current(thread, handle(call, 1), handle(call, 3), call);
+}
+void TraceSurvey::glx_make_current(const TraceCall& call, Thread& thread) {
+  make_current(thread, handle(call, 1), handle(call, 2), call);
+}
+void TraceSurvey::glx_make_context_current(const TraceCall& call, Thread& thread) {
+  make_current(thread, handle(call, 1), handle(call, 3), call);
+}
+void TraceSurvey::wgl_make_current(const TraceCall& call, Thread& thread) {
+  make_current(thread, handle(call, 0), handle(call, 1), call);
+}
+
+void TraceSurvey::egl_bind_api(const TraceCall& call, Thread& thread) {
+  thread.bound_api = handle(call, 0);
+}
+
+void TraceSurvey::egl_create_context(const TraceCall& call, Thread& thread) {
+  const auto id = static_cast<uint64_t>(call.result.as_number());
+  if (id == 0) return;
+  const bool desktop = thread.bound_api == static_cast<uint64_t>(EGL_OPENGL_API);
+  context(id).client_api =
+      versioned(desktop ? "OpenGL" : "OpenGL ES", attribute(call, 3, EGL_CONTEXT_MAJOR_VERSION, 1),
+                attribute(call, 3, EGL_CONTEXT_MINOR_VERSION, 0));
+}
+
+void TraceSurvey::glx_create_context(const TraceCall& call, Thread&) {
+  const auto id = static_cast<uint64_t>(call.result.as_number());
+  if (id != 0) context(id).client_api = "OpenGL";
+}
+
+void TraceSurvey::glx_create_context_attributes(const TraceCall& call, Thread&) {
+  const auto id = static_cast<uint64_t>(call.result.as_number());
+  if (id == 0) return;
+  const bool es = (attribute(call, 4, GLX_CONTEXT_PROFILE_MASK, 0) & GLX_CONTEXT_ES_PROFILE_BIT) != 0;
+  context(id).client_api =
+      versioned(es ? "OpenGL ES" : "OpenGL", attribute(call, 4, GLX_CONTEXT_MAJOR_VERSION, 1),
+                attribute(call, 4, GLX_CONTEXT_MINOR_VERSION, 0));
+}
+
+void TraceSurvey::resize(uint64_t id, int64_t width, int64_t height) {
+  constexpr int64_t kMaxSide = 1 << 16;
+  if (id == 0 || width <= 0 || height <= 0 || width > kMaxSide || height > kMaxSide) return;
+  TraceSurface& target = surface(id);
+  target.width = std::max(target.width, static_cast<uint32_t>(width));
+  target.height = std::max(target.height, static_cast<uint32_t>(height));
+}
+
+void TraceSurvey::egl_create_pbuffer(const TraceCall& call, Thread&) {
+  resize(static_cast<uint64_t>(call.result.as_number()), attribute(call, 2, EGL_WIDTH, 0),
+         attribute(call, 2, EGL_HEIGHT, 0));
+}
+
+void TraceSurvey::glx_create_pbuffer(const TraceCall& call, Thread&) {
+  resize(static_cast<uint64_t>(call.result.as_number()), attribute(call, 2, GLX_PBUFFER_WIDTH, 0),
+         attribute(call, 2, GLX_PBUFFER_HEIGHT, 0));
+}
+
+void TraceSurvey::egl_query_surface(const TraceCall& call, Thread&) {
+  const int64_t value = argument(call, 3);
+  if (argument(call, 2) == EGL_WIDTH) resize(handle(call, 1), value, 1);
+  if (argument(call, 2) == EGL_HEIGHT) resize(handle(call, 1), 1, value);
+}
+
+void TraceSurvey::glx_query_drawable(const TraceCall& call, Thread&) {
+  const int64_t value = argument(call, 3);
+  if (argument(call, 2) == GLX_WIDTH) resize(handle(call, 1), value, 1);
+  if (argument(call, 2) == GLX_HEIGHT) resize(handle(call, 1), 1, value);
+}
+
+void TraceSurvey::gl_viewport(const TraceCall& call, Thread& thread) {
+  // The recorder notes the window's size as a viewport when a context becomes current; a retracer sizes its
+  // windows by the viewports of the default framebuffer.
+  if (context(thread.context).draw_framebuffer != 0) return;
+  resize(thread.surface, argument(call, 0) + argument(call, 2), argument(call, 1) + argument(call, 3));
+}
+
+void TraceSurvey::gl_bind_framebuffer(const TraceCall& call, Thread& thread) {
+  const int64_t target = argument(call, 0);
+  if (target == GL_FRAMEBUFFER || target == GL_DRAW_FRAMEBUFFER)
+    context(thread.context).draw_framebuffer = handle(call, 1);
+}
+
+void TraceSurvey::gl_get_string(const TraceCall& call, Thread&) {
+  if (argument(call, 0) == GL_VERSION) gl_version_ = call.result.text;
+  if (argument(call, 0) == GL_RENDERER) gl_renderer_ = call.result.text;
+}
+
+void TraceSurvey::gl_get_integer64(const TraceCall& call, Thread&) {
+  if (argument(call, 0) != GL_TIMESTAMP) return;
+  last_time_ns_ = argument(call, 1);
+  if (first_time_ns_ == 0) first_time_ns_ = last_time_ns_;
+}
+
+void TraceSurvey::report(TraceSummary& summary) const {
+  summary.api = api_;
+  summary.threads = threads_.size();
+  summary.frames = frames_;
+  for (const uint64_t id : presented_) summary.surfaces.push_back(surfaces_.at(id));
+  summary.gl_version = gl_version_;
+  summary.gl_renderer = gl_renderer_;
+  if (last_time_ns_ > first_time_ns_)
+    summary.duration_ns = static_cast<uint64_t>(last_time_ns_) - static_cast<uint64_t>(first_time_ns_);
+  std::vector<std::string> names;
+  for (const auto& [id, context] : contexts_)
+    if (context.presented && !context.client_api.empty()) names.push_back(context.client_api);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  for (const std::string& name : names) summary.contexts += (summary.contexts.empty() ? "" : ", ") + name;
+}
+
+}  // namespace tilepress

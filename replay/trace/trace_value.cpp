@@ -1,0 +1,220 @@
+// Trace value: the reader that keeps or skips the arguments and results of recorded calls.
+#include "trace_value.h"
+
+#include "trace_fault.h"
+
+namespace tilepress {
+namespace {
+
+// Numbers of the file format (apitrace's docs/FORMAT).
+enum : uint8_t {
+  kNull,
+  kFalse,
+  kTrue,
+  kNegative,
+  kPositive,
+  kFloat,
+  kDouble,
+  kString,
+  kBlob,
+  kEnum,
+  kBitmask,
+  kArray,
+  kStruct,
+  kPointer,
+  kRepresentation,
+  kWideString,
+};
+
+void check_nesting(uint32_t depth) {
+  if (depth > TraceValueReader::kMaxNesting) fail_corrupt("values are nested too deeply");
+}
+
+template <typename Table>
+void check_room(const Table& table) {
+  if (table.size() >= TraceValueReader::kMaxSignatures) fail_corrupt("too many type definitions");
+}
+
+}  // namespace
+
+int64_t TraceValue::as_number(int64_t otherwise) const {
+  if (kind == Kind::kNumber) return number;
+  if (kind == Kind::kList && items.size() == 1) return items[0].as_number(otherwise);
+  return otherwise;
+}
+
+int64_t TraceValueReader::read_tagged_integer() {
+  const uint8_t type = stream_.read_byte();
+  if (type != kNegative && type != kPositive) fail_corrupt("an enumeration's value is no integer");
+  const uint64_t magnitude = stream_.read_uint();
+  return static_cast<int64_t>(type == kNegative ? 0 - magnitude : magnitude);
+}
+
+int64_t TraceValueReader::read_enumeration() {
+  const uint64_t id = stream_.read_uint();
+  const auto known = enumerations_.find(id);
+  if (version_ < 3) {  // a definition for each value
+    if (known != enumerations_.end()) return known->second;
+    check_room(enumerations_);
+    stream_.skip_string();
+    return enumerations_[id] = read_tagged_integer();
+  }
+  if (known == enumerations_.end()) {
+    check_room(enumerations_);
+    for (uint64_t left = stream_.read_uint(); left > 0; --left) {
+      stream_.skip_string();
+      read_tagged_integer();
+    }
+    enumerations_[id] = 0;
+  }
+  return read_tagged_integer();
+}
+
+uint64_t TraceValueReader::read_bitmask() {
+  const uint64_t id = stream_.read_uint();
+  if (!bitmasks_.contains(id)) {
+    check_room(bitmasks_);
+    for (uint64_t left = stream_.read_uint(); left > 0; --left) {
+      stream_.skip_string();
+      stream_.read_uint();
+    }
+    bitmasks_.insert(id);
+  }
+  return stream_.read_uint();
+}
+
+uint64_t TraceValueReader::read_structure_size() {
+  const uint64_t id = stream_.read_uint();
+  const auto known = structures_.find(id);
+  if (known != structures_.end()) return known->second;
+  check_room(structures_);
+  stream_.skip_string();
+  const uint64_t members = stream_.read_uint();
+  if (members > kMaxMembers) fail_corrupt("a structure claims " + std::to_string(members) + " members");
+  for (uint64_t left = members; left > 0; --left) stream_.skip_string();
+  return structures_[id] = members;
+}
+
+void TraceValueReader::skip_items(uint64_t count, uint32_t depth) {
+  for (; count > 0; --count) skip(depth);
+}
+
+void TraceValueReader::read_items(uint64_t count, uint32_t depth, TraceValue& into) {
+  into.kind = TraceValue::Kind::kList;
+  for (; count > 0 && budget_bytes_ >= sizeof(TraceValue); --count) into.items.push_back(read(depth));
+  skip_items(count, depth);
+}
+
+TraceValue TraceValueReader::read(uint32_t depth) {
+  check_nesting(depth);
+  TraceValue value;
+  if (budget_bytes_ < sizeof value) {
+    skip(depth);
+    return value;
+  }
+  budget_bytes_ -= sizeof value;
+  const auto number = [&value](uint64_t bits) {
+    value.kind = TraceValue::Kind::kNumber;
+    value.number = static_cast<int64_t>(bits);
+  };
+  const uint8_t type = stream_.read_byte();
+  switch (type) {
+    case kNull:
+    case kFalse:
+      number(0);
+      break;
+    case kTrue:
+      number(1);
+      break;
+    case kNegative:
+      number(0 - stream_.read_uint());
+      break;
+    case kPositive:
+    case kPointer:
+      number(stream_.read_uint());
+      break;
+    case kFloat:
+      stream_.skip(4);
+      break;
+    case kDouble:
+      stream_.skip(8);
+      break;
+    case kString:
+      value.kind = TraceValue::Kind::kText;
+      value.text = stream_.read_string(budget_bytes_);
+      budget_bytes_ -= value.text.size();
+      break;
+    case kBlob:
+      stream_.skip(stream_.read_uint());
+      break;
+    case kEnum:
+      number(static_cast<uint64_t>(read_enumeration()));
+      break;
+    case kBitmask:
+      number(read_bitmask());
+      break;
+    case kArray:
+      read_items(stream_.read_uint(), depth + 1, value);
+      break;
+    case kStruct:
+      read_items(read_structure_size(), depth + 1, value);
+      break;
+    case kRepresentation:
+      skip(depth + 1);         // for people
+      return read(depth + 1);  // for machines
+    case kWideString:
+      for (uint64_t left = stream_.read_uint(); left > 0; --left) stream_.read_uint();
+      break;
+    default:
+      fail_corrupt("unknown value type " + std::to_string(type));
+  }
+  return value;
+}
+
+void TraceValueReader::skip(uint32_t depth) {
+  check_nesting(depth);
+  const uint8_t type = stream_.read_byte();
+  switch (type) {
+    case kNull:
+    case kFalse:
+    case kTrue:
+      break;
+    case kNegative:
+    case kPositive:
+    case kPointer:
+      stream_.read_uint();
+      break;
+    case kFloat:
+      stream_.skip(4);
+      break;
+    case kDouble:
+      stream_.skip(8);
+      break;
+    case kString:
+    case kBlob:
+      stream_.skip(stream_.read_uint());
+      break;
+    case kEnum:
+      read_enumeration();
+      break;
+    case kBitmask:
+      read_bitmask();
+      break;
+    case kArray:
+      skip_items(stream_.read_uint(), depth + 1);
+      break;
+    case kStruct:
+      skip_items(read_structure_size(), depth + 1);
+      break;
+    case kRepresentation:
+      skip_items(2, depth + 1);
+      break;
+    case kWideString:
+      for (uint64_t left = stream_.read_uint(); left > 0; --left) stream_.read_uint();
+      break;
+    default:
+      fail_corrupt("unknown value type " + std::to_string(type));
+  }
+}
+
+}  // namespace tilepress
