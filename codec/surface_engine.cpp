@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <chrono>
 #include <deque>
@@ -12,10 +13,13 @@
 #include "block_check.h"
 #include "dcp/ccd.h"
 #include "dcp/fvc.h"
+#include "dcp/lfc_collector.h"
 #include "memory/surface_store.h"
 #include "ras/ras_stream.h"
+#include "simd/kernels.h"
 #include "statistics/frame_metrics.h"
 #include "tilepress/scheme.h"
+#include "tilepress/simd.h"
 #include "tilepress/tiler.h"
 
 namespace tilepress {
@@ -23,14 +27,19 @@ namespace {
 
 /// An FVC configuration in use: what it collects, and the dictionary in force.
 struct Collector {
-  Collector(const FvcConfig& config, const FormatTraits& format) : fvc(config, format) {}
+  Collector(const FvcConfig& config, const FormatTraits& format) : fvc(config, format) {
+    if (config.policy == FvcPolicy::kLfc && config.ways == 0 && config.sample == 1 &&
+        config.entries <= LfcCollector::kMaxEntries && simd_target() != "scalar")
+      fast = std::make_unique<LfcCollector>(config.entries);
+  }
   Fvc fvc;
+  std::unique_ptr<LfcCollector> fast;  ///< collects in the place of fvc where it can, to the same result
   Ccd ccd;
   CcdLookup lookup;
   bool has_ccd = false;
   bool wanted = false;      ///< a scheme looks colours up in its CCD
   bool collecting = false;  ///< in this frame
-  std::array<uint16_t, kBlockPixels> indices;
+  std::array<uint32_t, kBlockPixels> indices, largest;
 };
 
 struct Lane {
@@ -55,12 +64,18 @@ struct SurfaceEngine::State {
   uint64_t ordinal = 0;
   bool needs_ras = false, needs_ras_ycocg = false;
   std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere
+  uint32_t burst_round = 0, burst_shift = 0;  ///< burst_bits is a power of two
 
   void open(const FormatTraits& format);
   Collector& collector_for(const FvcConfig& config, const FormatTraits& format);
   void begin_frame(FrameStatistics& out);
   void visit_block(uint32_t bx, uint32_t by, const FormatTraits& format, FrameStatistics& out);
-  void collect(const Block& block, uint32_t bx, uint32_t by);
+  void collect(const BlockContext& block);
+  uint32_t ras_bits(const BlockContext& block, const uint32_t* top_left, const FormatTraits& format,
+                    bool ycocg) const {
+    return block.uniform ? ras_uniform_bits(format, ycocg)
+                         : ras_stream_bits(top_left, now.stride(), format, ycocg);
+  }
   void end_frame(FrameStatistics& out);
 };
 
@@ -71,6 +86,8 @@ Collector& SurfaceEngine::State::collector_for(const FvcConfig& config, const Fo
 }
 
 void SurfaceEngine::State::open(const FormatTraits& format) {
+  burst_round = options.burst_bits - 1;
+  burst_shift = static_cast<uint32_t>(std::countr_zero(options.burst_bits));
   collector_for(FvcConfig{}, format);
   for (const SchemeSpec& spec : specs) {
     const SchemeInfo* info = find_scheme(spec.name);
@@ -92,7 +109,9 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
 void SurfaceEngine::State::begin_frame(FrameStatistics& out) {
   for (Collector& collector : collectors) {
     collector.collecting = ordinal % collector.fvc.config().period == 0;
-    if (collector.collecting) collector.fvc.reset();
+    if (!collector.collecting) continue;
+    collector.fvc.reset();
+    if (collector.fast) collector.fast->reset();
   }
   out.schemes.assign(lanes.size(), SchemeStatistics{});
   for (size_t i = 0; i < lanes.size(); ++i) {
@@ -110,34 +129,60 @@ void SurfaceEngine::State::begin_frame(FrameStatistics& out) {
   }
 }
 
-void SurfaceEngine::State::collect(const Block& block, uint32_t bx, uint32_t by) {
-  const uint32_t width = std::min(kBlockSide, now.width() - bx * kBlockSide);
-  const uint32_t height = std::min(kBlockSide, now.height() - by * kBlockSide);
-  const bool whole = width == kBlockSide && height == kBlockSide;
+void SurfaceEngine::State::collect(const BlockContext& block) {
+  const uint32_t width = std::min(kBlockSide, now.width() - block.bx * kBlockSide);
+  const uint32_t height = std::min(kBlockSide, now.height() - block.by * kBlockSide);
+  uint32_t count = kBlockPixels;
+  const uint32_t* pixels = block.pixels;
+  uint32_t inside[kBlockPixels];
+  if (width < kBlockSide || height < kBlockSide) {  // padding never enters the FVC
+    count = 0;
+    for (uint32_t i = 0; i < kBlockPixels; ++i)
+      if (kTraversal[i] % 8 < width && kTraversal[i] / 8 < height) inside[count++] = block.pixels[i];
+    pixels = inside;
+  }
   for (Collector& collector : collectors) {
     if (!collector.collecting) continue;
-    for (const uint8_t position : kTraversal)
-      if (whole || (position % 8 < width && position / 8 < height)) collector.fvc.see(block.pixels[position]);
+    if (!collector.fast)
+      collector.fvc.see_all(pixels, count);
+    else if (block.uniform)
+      collector.fast->see_run(pixels[0], count);
+    else if (count == kBlockPixels)
+      collector.fast->see_block(pixels);
+    else
+      for (uint32_t i = 0; i < count; ++i) collector.fast->see_run(pixels[i], 1);
   }
 }
 
 void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTraits& format,
                                        FrameStatistics& out) {
+  alignas(64) uint32_t pixels[kBlockPixels];
+  const uint32_t* top_left = now.row(by * kBlockSide) + bx * kBlockSide;
   Block block;
+  BlockContext context{.block = block, .bx = bx, .by = by, .pixels = pixels};
+  context.uniform = kernels().load_traversal(top_left, now.stride(), pixels);
   now.load_block(bx, by, block);
-  for (Collector& collector : collectors)
-    if (collector.wanted && collector.has_ccd) collector.lookup.find_block(block, collector.indices);
-  BlockContext context{.block = block, .bx = bx, .by = by};
-  if (needs_ras) context.ras_bits = ras_stream_bits(block, format, false);
-  if (needs_ras_ycocg) context.ras_ycocg_bits = ras_stream_bits(block, format, true);
+  for (Collector& collector : collectors) {
+    if (!collector.wanted || !collector.has_ccd) continue;
+    if (context.uniform) {
+      const uint32_t index = collector.lookup.find(pixels[0]);
+      collector.indices.fill(index);
+      collector.largest.fill(index);
+    } else {
+      collector.lookup.find_block(pixels, collector.indices.data(), collector.largest.data());
+    }
+  }
+  if (needs_ras) context.ras_bits = ras_bits(context, top_left, format, false);
+  if (needs_ras_ycocg) context.ras_ycocg_bits = ras_bits(context, top_left, format, true);
   for (size_t i = 0; i < lanes.size(); ++i) {
     Lane& lane = lanes[i];
     SchemeStatistics& scheme = out.schemes[i];
-    context.ccd_indices =
-        lane.collector != nullptr && lane.collector->has_ccd ? lane.collector->indices.data() : nullptr;
+    const bool look_up = lane.collector != nullptr && lane.collector->has_ccd;
+    context.ccd_indices = look_up ? lane.collector->indices.data() : nullptr;
+    context.ccd_largest = look_up ? lane.collector->largest.data() : nullptr;
     const uint32_t payload_bits = lane.encoder->measure(context);
     scheme.payload_bits += payload_bits;
-    scheme.bursts += (payload_bits + options.burst_bits - 1) / options.burst_bits;
+    scheme.bursts += (payload_bits + burst_round) >> burst_shift;
     lane.encoder->account(context, payload_bits, scheme);
     if (!surfaces.empty()) lane.store.put(*lane.encoder, context);
     if (lane.decoder) {
@@ -145,10 +190,12 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
       scheme.mismatched_blocks += !check.round_trip(*lane.encoder, *lane.decoder, context, payload_bits);
     }
   }
-  collect(block, bx, by);
+  collect(context);
 }
 
 void SurfaceEngine::State::end_frame(FrameStatistics& out) {
+  for (Collector& collector : collectors)
+    if (collector.collecting && collector.fast) collector.fast->store_to(collector.fvc);
   const uint64_t blocks = now.blocks();
   for (size_t i = 0; i < lanes.size(); ++i) {
     SchemeStatistics& scheme = out.schemes[i];

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "dcp/fvc.h"
+#include "simd/kernels.h"
 
 namespace tilepress {
 
@@ -27,29 +28,46 @@ void Ccd::build(const Fvc& fvc) {
 }
 
 void CcdLookup::build(const Ccd& ccd) {
-  const uint32_t size = std::max(16u, ccd.entries * 4);  // at most a quarter full: short probes
-  mask_ = size - 1;
-  shift_ = 33 - static_cast<uint32_t>(std::bit_width(size));
-  colors_.assign(size, 0);
-  indices_.assign(size, kNotInCcd);
-  for (size_t i = 0; i < ccd.colors.size(); ++i) {
-    uint32_t at = hash(ccd.colors[i]);
-    while (indices_[at] != kNotInCcd) at = (at + 1) & mask_;
-    colors_[at] = ccd.colors[i];
-    indices_[at] = static_cast<uint16_t>(i);
+  constexpr uint32_t kTries = 64;
+  const uint32_t buckets = std::max(16u, ccd.entries * (ccd.entries <= 128 ? 32 : 64));
+  collision_free_ = false;
+  for (uint32_t n = 0; n < kTries && !collision_free_ && ccd.entries <= 512; ++n) {
+    table_.multiplier = ProbeTable::multiplier_of(n);
+    table_.reset(buckets, true);
+    collision_free_ = place_all(ccd, false);
   }
+  if (collision_free_) return;
+  table_.multiplier = ProbeTable::multiplier_of(0);
+  table_.reset(ccd.entries * 4, true);  // at most a quarter full: short probes
+  place_all(ccd, true);
 }
 
-void CcdLookup::find_block(const Block& block, std::array<uint16_t, kBlockPixels>& indices) const {
-  uint32_t last_color = block.pixels[0];
-  uint16_t last_index = find(last_color);
+bool CcdLookup::place_all(const Ccd& ccd, bool probing) {
+  std::fill(table_.values.begin(), table_.values.end(), uint32_t{kNotInCcd});
+  for (size_t i = 0; i < ccd.colors.size(); ++i) {
+    uint32_t at = table_.bucket(ccd.colors[i]);
+    while (table_.values[at] != kNotInCcd) {
+      if (!probing) return false;
+      at = (at + 1) & (table_.size() - 1);
+    }
+    table_.colors[at] = ccd.colors[i];
+    table_.values[at] = static_cast<uint32_t>(i);
+  }
+  return true;
+}
+
+void CcdLookup::find_block(const uint32_t* pixels, uint32_t* indices, uint32_t* largest) const {
+  if (collision_free_) return kernels().find(pixels, table_, kNotInCcd, indices, largest);
+  uint32_t last_color = pixels[0], last_index = find(last_color);
   for (uint32_t i = 0; i < kBlockPixels; ++i) {
-    if (block.pixels[i] != last_color) {
-      last_color = block.pixels[i];
+    if (pixels[i] != last_color) {
+      last_color = pixels[i];
       last_index = find(last_color);
     }
     indices[i] = last_index;
   }
+  for (uint32_t i = 0; i < kBlockPixels; i += 4)
+    std::fill_n(largest + i, 4, std::max({indices[i], indices[i + 1], indices[i + 2], indices[i + 3]}));
 }
 
 void Rccd::write(const Ccd& ccd, uint32_t slots, uint32_t pixel_bits, BitWriter& out) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "simd/probe_table.h"
 #include "tilepress/bit_io.h"
 #include "tilepress/block.h"
 #include "tilepress/scheme.h"
@@ -27,23 +28,24 @@ struct Ccd {
   void build(const Fvc& fvc);
 };
 
-/// Finds colours in a CCD: an open-addressed table, so that a lookup costs the same whatever N is.
+/// Finds colours in a CCD. Small dictionaries get a table without collisions, found by trying multipliers,
+/// which a SIMD kernel reads many pixels at a time; large ones an open-addressed table.
 class CcdLookup {
  public:
   void build(const Ccd& ccd);
   /// CCD index of the colour, kNotInCcd if it has none.
-  uint16_t find(uint32_t color) const {
-    for (uint32_t at = hash(color);; at = (at + 1) & mask_)
-      if (indices_[at] == kNotInCcd || colors_[at] == color) return indices_[at];
+  uint32_t find(uint32_t color) const {
+    for (uint32_t at = table_.bucket(color);; at = (at + 1) & (table_.size() - 1))
+      if (table_.values[at] == kNotInCcd || table_.colors[at] == color) return table_.values[at];
   }
-  /// All pixels of a block, by raster position.
-  void find_block(const Block& block, std::array<uint16_t, kBlockPixels>& indices) const;
+  /// A block of 64 pixels in traversal order: its indices, and for each pixel the largest index of its
+  /// sub-block.
+  void find_block(const uint32_t* pixels, uint32_t* indices, uint32_t* largest) const;
 
  private:
-  uint32_t hash(uint32_t color) const { return (color * 0x9E3779B1u) >> shift_; }
-  uint32_t mask_ = 0, shift_ = 31;
-  std::vector<uint32_t> colors_;
-  std::vector<uint16_t> indices_;
+  bool place_all(const Ccd& ccd, bool probing);
+  ProbeTable table_;
+  bool collision_free_ = false;
 };
 
 /// The reversed dictionary that travels with a compressed surface: slots of a valid bit and a colour, so

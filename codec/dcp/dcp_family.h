@@ -9,14 +9,6 @@
 
 namespace tilepress {
 
-/// Largest CCD index of a sub-block; kNotInCcd if a pixel has none.
-inline uint16_t largest_index(const uint16_t* indices, uint32_t sub) {
-  const uint16_t* top = indices + sub_block_pixel(sub, 0);
-  const uint16_t a = top[0] > top[1] ? top[0] : top[1];
-  const uint16_t b = top[kBlockSide] > top[kBlockSide + 1] ? top[kBlockSide] : top[kBlockSide + 1];
-  return a > b ? a : b;
-}
-
 /// Encoder base: knows the CCD of the frame and whether the coverage threshold switches the scheme off
 /// (paper §Dynamically Enabling DCP).
 class DcpFamilyEncoder : public BlockEncoder {

@@ -7,6 +7,7 @@
 #include "dcp/algorithm1.h"
 #include "dcp/dcp_family.h"
 #include "scheme_factory.h"
+#include "simd/kernels.h"
 
 namespace tilepress {
 namespace {
@@ -29,9 +30,8 @@ class DcpEncoder : public DcpFamilyEncoder {
   }
   uint32_t measure(const BlockContext& block) const override {
     if (!active()) return raw_block_bits();
-    uint32_t compressed = 0;
-    for (uint32_t sub = 0; sub < kSubBlocks; ++sub) compressed += fits(block, sub);
-    return compressed * kSubBlockPixels * width_ + (kSubBlocks - compressed) * raw_sub_block_bits();
+    const uint32_t compressed = kernels().count_below(block.ccd_largest, 1u << width_);  // pixels
+    return compressed * width_ + (kBlockPixels - compressed) * pixel_bits_;
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
@@ -42,7 +42,7 @@ class DcpEncoder : public DcpFamilyEncoder {
         continue;
       }
       for (uint32_t i = 0; i < kSubBlockPixels; ++i)
-        payload.put(block.ccd_indices[sub_block_pixel(sub, i)], width_);
+        payload.put(block.ccd_indices[sub * kSubBlockPixels + i], width_);
     }
   }
 
@@ -51,7 +51,7 @@ class DcpEncoder : public DcpFamilyEncoder {
 
  private:
   bool fits(const BlockContext& block, uint32_t sub) const {
-    return largest_index(block.ccd_indices, sub) < 1u << width_;
+    return block.ccd_largest[sub * kSubBlockPixels] < 1u << width_;
   }
   uint32_t width_ = 0;
 };

@@ -14,6 +14,16 @@ class Fvc {
  public:
   Fvc(const FvcConfig& config, const FormatTraits& format);
 
+  /// `count` pixels of the frame in a row.
+  void see_all(const uint32_t* pixels, uint32_t count) {
+    while (until_sample_ <= count) {
+      pixels += until_sample_;
+      count -= until_sample_;
+      until_sample_ = config_.sample;
+      collect(pixels[-1]);
+    }
+    until_sample_ -= count;
+  }
   /// Empties it, as at the start of each frame it collects in.
   void reset();
   /// The next pixel of the frame inside the surface, in traversal order; counts it if it is a sampled one.
@@ -22,6 +32,13 @@ class Fvc {
       until_sample_ = config_.sample;
       collect(color);
     }
+  }
+
+  /// Takes the state of a faster collector: colours and counts by slot (count 0 = empty).
+  void assign(const std::vector<uint32_t>& colors, const std::vector<uint32_t>& counts, uint64_t samples) {
+    colors_ = colors;
+    counts_ = counts;
+    samples_ = samples;
   }
 
   const FvcConfig& config() const { return config_; }

@@ -36,6 +36,7 @@ class HuffDcpEncoder final : public DcpFamilyEncoder {
   }
   uint32_t measure(const BlockContext& block) const override {
     if (!active()) return raw_block_bits();
+    if (block.uniform) return kSubBlocks * sub_block_bits(block, 0);
     uint32_t bits = 0;
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub) bits += sub_block_bits(block, sub);
     return bits;
@@ -49,7 +50,7 @@ class HuffDcpEncoder final : public DcpFamilyEncoder {
         continue;
       }
       for (uint32_t i = 0; i < kSubBlockPixels; ++i) {
-        const uint16_t index = block.ccd_indices[sub_block_pixel(sub, i)];
+        const uint32_t index = block.ccd_indices[sub * kSubBlockPixels + i];
         payload.put(code_.code(index), code_.length(index));
       }
     }
@@ -59,7 +60,7 @@ class HuffDcpEncoder final : public DcpFamilyEncoder {
   uint32_t sub_block_bits(const BlockContext& block, uint32_t sub) const {
     uint32_t bits = 0;
     for (uint32_t i = 0; i < kSubBlockPixels; ++i) {
-      const uint16_t index = block.ccd_indices[sub_block_pixel(sub, i)];
+      const uint32_t index = block.ccd_indices[sub * kSubBlockPixels + i];
       if (index == kNotInCcd) return raw_sub_block_bits();
       bits += code_.length(index);
     }

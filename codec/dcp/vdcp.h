@@ -5,39 +5,42 @@
 #include <cstdint>
 
 #include "dcp/dcp_family.h"
+#include "simd/kernels.h"
 
 namespace tilepress {
 
 /// Index width of a sub-block whose largest CCD index is `largest`: its bit width (index 0 → 0 bits, 1 → 1,
 /// 2–3 → 2 …). The paper prints ceil(log2(max index)); its own example needs the bit width.
-inline uint32_t vdcp_width(uint16_t largest) {
+inline uint32_t vdcp_width(uint32_t largest) {
   return static_cast<uint32_t>(std::bit_width(largest));
 }
 
-/// Payload bits of a block; indices by raster position.
-inline uint32_t vdcp_measure(const uint16_t* indices, uint32_t pixel_bits) {
-  uint32_t bits = 0;
-  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-    const uint16_t largest = largest_index(indices, sub);
-    bits += kSubBlockPixels * (largest == kNotInCcd ? pixel_bits : vdcp_width(largest));
+/// Payload bits of a block: four times the widths of its sub-blocks, the sum over all pixels.
+inline uint32_t vdcp_measure(const BlockContext& block, uint32_t pixel_bits) {
+  if (block.uniform) {
+    const uint32_t index = block.ccd_indices[0];
+    return kBlockPixels * (index == kNotInCcd ? pixel_bits : vdcp_width(index));
   }
-  return bits;
+  return kernels().width_sum(block.ccd_largest, kNotInCcd, pixel_bits);
 }
 
 /// Writes a block: per sub-block `csb_width` CSB bits holding the width, or `raw_mark` for a raw one.
-/// indices == nullptr: all raw.
-inline void vdcp_encode(const Block& block, const uint16_t* indices, uint32_t pixel_bits, uint32_t csb_width,
+/// `look_up` = false: all raw.
+inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t pixel_bits, uint32_t csb_width,
                         uint32_t raw_mark, BitWriter& payload, BitWriter& csb) {
   for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-    const uint16_t largest = indices == nullptr ? kNotInCcd : largest_index(indices, sub);
+    const uint32_t at = sub * kSubBlockPixels;
+    const uint32_t largest = look_up ? block.ccd_largest[at] : kNotInCcd;
     if (largest == kNotInCcd) {
       csb.put(raw_mark, csb_width);
-      write_raw_sub_block(block, sub, pixel_bits, payload);
+      for (uint32_t i = 0; i < kSubBlockPixels; ++i) payload.put(block.pixels[at + i], pixel_bits);
       continue;
     }
     const uint32_t width = vdcp_width(largest);
     csb.put(width, csb_width);
-    for (uint32_t i = 0; i < kSubBlockPixels; ++i) payload.put(indices[sub_block_pixel(sub, i)], width);
+    uint64_t indices = 0;  // four of at most 10 bits
+    for (uint32_t i = 0; i < kSubBlockPixels; ++i) indices = indices << width | block.ccd_indices[at + i];
+    payload.put(indices, kSubBlockPixels * width);
   }
 }
 

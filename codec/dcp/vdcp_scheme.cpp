@@ -28,13 +28,12 @@ class VdcpEncoder final : public DcpFamilyEncoder {
     if (active()) Rccd::write(*ccd_, ccd_->entries, pixel_bits_, out);
   }
   uint32_t measure(const BlockContext& block) const override {
-    return active() ? vdcp_measure(block.ccd_indices, pixel_bits_) : raw_block_bits();
+    return active() ? vdcp_measure(block, pixel_bits_) : raw_block_bits();
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     if (off_) return write_raw_block(block.block, pixel_bits_, payload);
     const uint32_t width = csb_width(index_bits_);
-    vdcp_encode(block.block, active() ? block.ccd_indices : nullptr, pixel_bits_, width, (1u << width) - 1,
-                payload, csb);
+    vdcp_encode(block, active(), pixel_bits_, width, (1u << width) - 1, payload, csb);
   }
 };
 

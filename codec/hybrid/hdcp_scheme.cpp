@@ -35,8 +35,7 @@ class HdcpEncoder final : public DcpFamilyEncoder {
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     const uint32_t cls = classes_.class_of(block.ras_bits);
     if (choose(block).vdcp)
-      return vdcp_encode(block.block, active() ? block.ccd_indices : nullptr, pixel_bits_, kSubBlockCsbBits,
-                         kRawMark, payload, csb);
+      return vdcp_encode(block, active(), pixel_bits_, kSubBlockCsbBits, kRawMark, payload, csb);
     if (off_)
       csb.put(cls, classes_.csb_bits());
     else
@@ -57,7 +56,7 @@ class HdcpEncoder final : public DcpFamilyEncoder {
   Choice choose(const BlockContext& block) const {
     const uint32_t ras = classes_.bits_of(classes_.class_of(block.ras_bits));
     if (off_) return {false, ras};
-    const uint32_t vdcp = active() ? vdcp_measure(block.ccd_indices, pixel_bits_) : raw_block_bits();
+    const uint32_t vdcp = active() ? vdcp_measure(block, pixel_bits_) : raw_block_bits();
     if (bursts(vdcp) <= bursts(ras)) return {true, vdcp};
     return {false, ras};
   }

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "ras/ras_samples.h"
+#include "simd/kernels.h"
+
 namespace tilepress {
 namespace {
 
@@ -81,6 +84,17 @@ bool join_planes(const RasPlanes& planes, const FormatTraits& format, bool ycocg
   return stray == 0;
 }
 
+/// The four plane values of a pixel; 0 for an absent plane.
+void split_pixel(uint32_t word, const FormatTraits& format, bool ycocg, int32_t* value) {
+  for (int c = 0; c < 4; ++c) value[c] = static_cast<int32_t>(channel(format, word, c));
+  if (!ycocg) return;
+  const int32_t r = value[0], g = value[1], b = value[2];
+  const int32_t co = r - b, t = b + (co >> 1), cg = g - t;
+  value[0] = t + (cg >> 1);
+  value[1] = co;
+  value[2] = cg;
+}
+
 uint32_t plane_count(const FormatTraits& format) {
   return format.channel_bits[3] != 0 ? 4 : 3;
 }
@@ -101,28 +115,39 @@ void plane_widths(const FormatTraits& format, bool ycocg, RasPlanes& planes) {
 void split_planes(const Block& block, const FormatTraits& format, bool ycocg, RasPlanes& planes) {
   plane_widths(format, ycocg, planes);
   for (uint32_t i = 0; i < kBlockPixels; ++i) {
-    const uint32_t word = block.pixels[i];
-    for (uint32_t p = 0; p < planes.count; ++p)
-      planes.samples[p][i] = static_cast<int32_t>(channel(format, word, static_cast<int>(p)));
-    if (!ycocg) continue;
-    const int32_t r = planes.samples[0][i], g = planes.samples[1][i], b = planes.samples[2][i];
-    const int32_t co = r - b, t = b + (co >> 1), cg = g - t;
-    planes.samples[0][i] = t + (cg >> 1);
-    planes.samples[1][i] = co;
-    planes.samples[2][i] = cg;
+    int32_t value[4];
+    split_pixel(block.pixels[i], format, ycocg, value);
+    for (uint32_t p = 0; p < planes.count; ++p) planes.samples[p][i] = value[p];
   }
 }
 
-uint32_t ras_stream_bits(const Block& block, const FormatTraits& format, bool ycocg) {
+uint32_t ras_stream_bits(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg) {
+  int16_t samples[kRasSamples];
   RasPlanes planes;
-  split_planes(block, format, ycocg, planes);
-  uint32_t bits = 0;
-  Residuals u;
-  for (uint32_t p = 0; p < planes.count; ++p) {
-    residuals_of(planes.samples[p], u);
-    bits += planes.first_bits[p];
-    for (uint32_t group = 0; group < kSubBlocks; ++group) bits += choose_code(u, group).bits;
+  plane_widths(format, ycocg, planes);
+  const bool four_bytes = format.channel_bits == std::array<uint8_t, 4>{8, 8, 8, 8};
+  if (four_bytes && !ycocg) {
+    kernels().widen_bytes(top_left, stride, samples);
+  } else {
+    for (uint32_t y = 0; y < kBlockSide; ++y)
+      for (uint32_t x = 0; x < kBlockSide; ++x) {
+        int32_t value[4];
+        split_pixel(top_left[size_t{y} * stride + x], format, ycocg, value);
+        int16_t* at = samples + ras_sample_index(static_cast<int32_t>(x), static_cast<int32_t>(y));
+        for (int c = 0; c < 4; ++c) at[c] = static_cast<int16_t>(value[c]);
+      }
   }
+  fill_ras_border(samples);
+  uint32_t bits = kernels().ras_code_bits(samples);
+  for (uint32_t p = 0; p < planes.count; ++p) bits += planes.first_bits[p];
+  return bits - (4 - planes.count) * kSubBlocks * 3;  // an absent plane is all zeros, 3 bits a group
+}
+
+uint32_t ras_uniform_bits(const FormatTraits& format, bool ycocg) {
+  RasPlanes planes;
+  plane_widths(format, ycocg, planes);
+  uint32_t bits = planes.count * kSubBlocks * 3;
+  for (uint32_t p = 0; p < planes.count; ++p) bits += planes.first_bits[p];
   return bits;
 }
 

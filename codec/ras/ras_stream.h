@@ -30,8 +30,10 @@ struct RasPlanes {
 /// Splits a block into planes. Requires R, G and B; with `ycocg` applies the reversible YCoCg-R transform.
 void split_planes(const Block& block, const FormatTraits& format, bool ycocg, RasPlanes& planes);
 
-/// Bits of the stream, not rounded.
-uint32_t ras_stream_bits(const Block& block, const FormatTraits& format, bool ycocg);
+/// Bits of the stream of the 8×8 block at `top_left` in a plane of `stride` words a row, not rounded.
+uint32_t ras_stream_bits(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg);
+/// The same for a block of one colour: first pixels and 3 bits a group.
+uint32_t ras_uniform_bits(const FormatTraits& format, bool ycocg);
 void ras_stream_write(const Block& block, const FormatTraits& format, bool ycocg, BitWriter& out);
 /// False: no encoder writes these bits.
 bool ras_stream_read(BitReader& in, const FormatTraits& format, bool ycocg, Block& out);

@@ -16,19 +16,16 @@ uint32_t region_width(uint32_t mode) {
   return mode == kRegions4x2 ? 4 : 2;
 }
 
-/// Are all regions of `width`×2 pixels uniform?
-bool uniform_regions(const Block& block, uint32_t width) {
-  for (uint32_t y = 0; y < kBlockSide; y += 2)
-    for (uint32_t x = 0; x < kBlockSide; ++x) {
-      const uint32_t first = block.pixels[8 * y + x / width * width];
-      if (block.pixels[8 * y + x] != first || block.pixels[8 * (y + 1) + x] != first) return false;
-    }
-  return true;
-}
-
-uint32_t red_mode(const Block& block) {
-  if (!uniform_regions(block, 2)) return kRaw;
-  return uniform_regions(block, 4) ? kRegions4x2 : kRegions2x2;
+/// A 2×2 region is a sub-block, a 4×2 region two of them side by side.
+uint32_t red_mode(const BlockContext& block) {
+  if (block.uniform) return kRegions4x2;
+  uint32_t mode = kRegions4x2;
+  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+    const uint32_t* pixels = block.pixels + sub * kSubBlockPixels;
+    if (((pixels[0] ^ pixels[1]) | (pixels[0] ^ pixels[2]) | (pixels[0] ^ pixels[3])) != 0) return kRaw;
+    if (sub % 2 == 1 && pixels[0] != pixels[-1]) mode = kRegions2x2;
+  }
+  return mode;
 }
 
 class RedEncoder final : public BlockEncoder {
@@ -43,10 +40,10 @@ class RedEncoder final : public BlockEncoder {
   void write_tables(BitWriter&) const override {}
   uint32_t measure(const BlockContext& block) const override {
     constexpr uint32_t kColors[] = {8, 16, 64};
-    return kColors[red_mode(block.block)] * pixel_bits_;
+    return kColors[red_mode(block)] * pixel_bits_;
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
-    const uint32_t mode = red_mode(block.block);
+    const uint32_t mode = red_mode(block);
     csb.put(mode, 2);
     if (mode == kRaw) return write_raw_block(block.block, pixel_bits_, payload);
     for (uint32_t y = 0; y < kBlockSide; y += 2)

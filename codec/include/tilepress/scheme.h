@@ -17,7 +17,7 @@ namespace tilepress {
 
 struct Ccd;
 
-constexpr uint16_t kNotInCcd = 0xFFFF;
+constexpr uint32_t kNotInCcd = 0xFFFF;
 
 /// What a scheme may know when a frame begins.
 struct FrameContext {
@@ -26,11 +26,15 @@ struct FrameContext {
   const Ccd* ccd = nullptr;  ///< CCD in force for the scheme's FVC configuration; null while none exists
 };
 
-/// One block and what the engine has already found out about it for all schemes.
+/// One block and what the engine has already found out about it for all schemes. Arrays are in traversal
+/// order (see block.h), 64 long: position 4s + i is pixel i of sub-block s.
 struct BlockContext {
   const Block& block;
   uint32_t bx = 0, by = 0;                ///< block column and row
-  const uint16_t* ccd_indices = nullptr;  ///< per raster position, kNotInCcd where absent; null without a CCD
+  const uint32_t* pixels = nullptr;       ///< the block's pixels
+  bool uniform = false;                   ///< all pixels are equal
+  const uint32_t* ccd_indices = nullptr;  ///< CCD index, kNotInCcd where absent; null without a CCD
+  const uint32_t* ccd_largest = nullptr;  ///< the largest ccd_indices of the position's sub-block
   uint32_t ras_bits = 0;                  ///< RAS stream of the RGBA planes, not rounded
   uint32_t ras_ycocg_bits = 0;            ///< the same of the YCoCg-R planes
 };

@@ -1,0 +1,71 @@
+// LFC collector: the fully associative FVC with least-frequent replacement, at the speed of a look-up.
+//
+// The same result as Fvc, slot for slot, from three observations:
+//  - The victim of a miss is the slot of the smallest (count, slot). A miss puts count 1 there, which is at
+//  most
+//    every other count, so that slot stays the victim until its colour is hit. Call it the tail; all other
+//    slots only ever grow.
+//  - Between two changes of the tail, the order of hits on the other slots does not matter: they can be
+//  counted in
+//    any order, and membership can be tested for a whole block at once.
+//  - A run of misses collapses to its last colour.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "simd/probe_table.h"
+
+namespace tilepress {
+
+class Fvc;
+
+class LfcCollector {
+ public:
+  static constexpr uint32_t kMaxEntries = 128;  ///< beyond, collisions in the table would become common
+
+  /// entries: a power of two, 2..kMaxEntries.
+  explicit LfcCollector(uint32_t entries);
+  void reset();
+  /// A whole block, 64 pixels in traversal order.
+  void see_block(const uint32_t* pixels);
+  /// `count` pixels of one colour in a row.
+  void see_run(uint32_t color, uint32_t count);
+  /// Hands slots, counts and samples to the plain FVC.
+  void store_to(Fvc& fvc) const;
+
+ private:
+  static constexpr uint32_t kMaxCrowded = 8;
+  static constexpr uint32_t kNoSlot = 0xFFFFFFFF;
+
+  uint32_t outside() const { return table_.size(); }
+  uint32_t crowded_place(uint32_t i) const { return table_.size() + 1 + i; }
+  bool full() const { return used_ == entries_; }
+  uint32_t place_of(uint32_t color) const;
+  uint32_t count_at(uint32_t place) const;
+  uint32_t& first_count_at(uint32_t place) { return counts_[place]; }
+  void add_member(uint32_t slot, uint32_t color, uint32_t count);
+  void remove_member(uint32_t slot);
+  void rehash();
+  void fill_slot(uint32_t color, uint32_t count);
+  bool settle_tail();
+  uint64_t find_members(const uint32_t* pixels, uint32_t* places) const;
+
+  const uint32_t entries_;
+  uint32_t used_ = 0;  ///< slots filled
+  uint64_t samples_ = 0;
+  uint32_t tail_slot_ = 0, tail_color_ = 0, tail_count_ = 0;  ///< valid once full
+  uint32_t floor_ = 0;                                        ///< no other slot has a smaller count
+  ProbeTable table_;      ///< colours of all slots but the tail, and but the crowded ones
+  uint32_t crowded_ = 0;  ///< colours whose bucket was taken
+  std::array<uint32_t, kMaxCrowded> crowded_colors_{}, crowded_slots_{};
+  uint32_t multiplier_index_ = 0;
+  /// Counts by place (bucket, outside, crowded), in four copies that are summed when needed: adding to one
+  /// address again and again would wait for the store before.
+  std::vector<uint32_t> counts_;
+  uint32_t copy_stride_;
+  std::vector<uint32_t> slot_places_, slot_colors_;
+};
+
+}  // namespace tilepress

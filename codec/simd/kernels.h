@@ -1,0 +1,45 @@
+// Kernels: the inner loops of a block, one set per instruction set. The scalar set is the definition.
+#pragma once
+
+#include <cstdint>
+
+#include "simd/probe_table.h"
+
+namespace tilepress {
+
+/// Pixels of a block in traversal order.
+constexpr uint32_t kLanes = 64;
+
+struct Kernels {
+  const char* name;
+
+  /// Copies an 8×8 block out of a plane (`stride` words from row to row) into traversal order.
+  /// True if all 64 pixels are equal.
+  bool (*load_traversal)(const uint32_t* top_left, uint32_t stride, uint32_t* pixels);
+
+  /// values[i] = the table's value of pixels[i], `absent` if it has none; largest[i] = the largest of the
+  /// four values of i's sub-block. For collision-free tables.
+  void (*find)(const uint32_t* pixels, const ProbeTable& table, uint32_t absent, uint32_t* values,
+               uint32_t* largest);
+
+  /// Sum over the lanes of the bit width of largest[i]; `raw_bits` where it is `absent`: VDCP's payload.
+  uint32_t (*width_sum)(const uint32_t* largest, uint32_t absent, uint32_t raw_bits);
+
+  /// Number of lanes with largest[i] < limit.
+  uint32_t (*count_below)(const uint32_t* largest, uint32_t limit);
+
+  /// Bit i of the result: pixels[i] is in the table. buckets[i] = its bucket; `outside` for the others.
+  uint64_t (*members)(const uint32_t* pixels, const ProbeTable& table, uint32_t outside, uint32_t* buckets);
+
+  /// Bits of the Golomb-Rice codes of four planes with their group headers, without the first pixels.
+  /// samples: rows of 40 values, row -1 to 7; see ras_samples.h.
+  uint32_t (*ras_code_bits)(const int16_t* samples);
+
+  /// ras_samples of an 8×8 block of four 8-bit channels, borders left out.
+  void (*widen_bytes)(const uint32_t* top_left, uint32_t stride, int16_t* samples);
+};
+
+/// The set in use.
+const Kernels& kernels();
+
+}  // namespace tilepress

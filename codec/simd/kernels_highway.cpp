@@ -1,0 +1,219 @@
+// Highway kernels: the same loops, compiled once per instruction set.
+#include "simd/kernel_sets.h"
+
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)  // nothing to gain over their neighbours
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/kernels_highway.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+#include "ras/ras_samples.h"
+#include "tilepress/block.h"
+
+// The baseline without SIMD is what kernels_scalar.cpp is for.
+#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+HWY_BEFORE_NAMESPACE();
+namespace tilepress {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Words = hn::CappedTag<uint32_t, 16>;
+
+bool LoadTraversal(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t* HWY_RESTRICT pixels) {
+  const hn::Full128<uint64_t> d;  // two pixels a lane: sub-blocks interleave pairs of two rows
+  const auto first = hn::Set(d, uint64_t{top_left[0]} << 32 | top_left[0]);
+  auto difference = hn::Zero(d);
+  auto* out = reinterpret_cast<uint64_t*>(pixels);
+  for (uint32_t y = 0; y < 8; y += 2) {
+    const auto* upper = reinterpret_cast<const uint64_t*>(top_left + size_t{y} * stride);
+    const auto* lower = reinterpret_cast<const uint64_t*>(top_left + size_t{y + 1} * stride);
+    for (uint32_t x = 0; x < 4; x += 2) {
+      const auto a = hn::LoadU(d, upper + x), b = hn::LoadU(d, lower + x);
+      difference = hn::Or(difference, hn::Or(hn::Xor(a, first), hn::Xor(b, first)));
+      hn::StoreU(hn::InterleaveLower(d, a, b), d, out);
+      hn::StoreU(hn::InterleaveUpper(d, a, b), d, out + 2);
+      out += 4;
+    }
+  }
+  const hn::Full128<uint32_t> d32;
+  return hn::AllTrue(d32, hn::Eq(hn::BitCast(d32, difference), hn::Zero(d32)));
+}
+
+void Find(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table, uint32_t absent,
+          uint32_t* HWY_RESTRICT values, uint32_t* HWY_RESTRICT largest) {
+  const Words d;
+  const hn::RebindToSigned<Words> di;
+  const auto none = hn::Set(d, absent), multiplier = hn::Set(d, table.multiplier);
+  for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
+    const auto color = hn::LoadU(d, pixels + i);
+    const auto at =
+        hn::BitCast(di, hn::ShiftRightSame(hn::Mul(color, multiplier), static_cast<int>(table.shift)));
+    const auto key = hn::GatherIndex(d, table.colors.data(), at);
+    const auto value = hn::IfThenElse(hn::Eq(key, color), hn::GatherIndex(d, table.values.data(), at), none);
+    hn::StoreU(value, d, values + i);
+    const auto pair = hn::Max(value, hn::Shuffle2301(value));
+    hn::StoreU(hn::Max(pair, hn::Shuffle1032(pair)), d, largest + i);
+  }
+}
+
+uint32_t WidthSum(const uint32_t* HWY_RESTRICT largest, uint32_t absent, uint32_t raw_bits) {
+  const Words d;
+  const hn::RebindToSigned<Words> di;
+  const hn::RebindToFloat<Words> df;
+  const auto none = hn::Set(d, absent);
+  const auto raw = hn::Set(di, static_cast<int32_t>(raw_bits));
+  auto sum = hn::Zero(di);
+  for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
+    const auto index = hn::LoadU(d, largest + i);
+    // The exponent of a positive integer as a float is its bit width - 1 + 127; that of 0 is 0.
+    const auto exponent = hn::ShiftRight<23>(hn::BitCast(di, hn::ConvertTo(df, hn::BitCast(di, index))));
+    const auto width = hn::Max(hn::Sub(exponent, hn::Set(di, 126)), hn::Zero(di));
+    sum = hn::Add(sum, hn::IfThenElse(hn::RebindMask(di, hn::Eq(index, none)), raw, width));
+  }
+  return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(di, sum)));
+}
+
+uint32_t CountBelow(const uint32_t* HWY_RESTRICT largest, uint32_t limit) {
+  const Words d;
+  const hn::RebindToSigned<Words> di;  // both below 2^31: signed comparison is at hand everywhere
+  const auto bound = hn::Set(di, static_cast<int32_t>(limit));
+  uint32_t count = 0;
+  for (size_t i = 0; i < kLanes; i += hn::Lanes(d))
+    count +=
+        static_cast<uint32_t>(hn::CountTrue(di, hn::Lt(hn::BitCast(di, hn::LoadU(d, largest + i)), bound)));
+  return count;
+}
+
+uint64_t Members(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table, uint32_t outside,
+                 uint32_t* HWY_RESTRICT buckets) {
+  const Words d;
+  const hn::RebindToSigned<Words> di;
+  const auto none = hn::Set(d, outside), multiplier = hn::Set(d, table.multiplier);
+  uint64_t mask = 0;
+  for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
+    const auto color = hn::LoadU(d, pixels + i);
+    const auto at = hn::ShiftRightSame(hn::Mul(color, multiplier), static_cast<int>(table.shift));
+    const auto in = hn::Eq(hn::GatherIndex(d, table.colors.data(), hn::BitCast(di, at)), color);
+    hn::StoreU(hn::IfThenElse(in, at, none), d, buckets + i);
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, in, bits);
+    uint64_t lanes;
+    __builtin_memcpy(&lanes, bits, 8);
+    mask |= lanes << i;
+  }
+  return mask;
+}
+
+using Samples = hn::CappedTag<int16_t, 32>;  // a row of eight pixels of four planes
+
+template <class V>
+HWY_INLINE V FoldedResidual(const Samples& d, const int16_t* at, V) {
+  const auto a = hn::LoadU(d, at - 4), b = hn::LoadU(d, at - kRasRowSamples);
+  const auto c = hn::LoadU(d, at - kRasRowSamples - 4);
+  const auto gradient = hn::Sub(hn::Add(a, b), c);
+  const auto prediction = hn::Max(hn::Min(a, b), hn::Min(hn::Max(a, b), gradient));
+  const auto e = hn::Sub(hn::LoadU(d, at), prediction);
+  return hn::Xor(hn::Add(e, e), hn::ShiftRight<15>(e));
+}
+
+template <int kK, class V>
+HWY_INLINE V GroupBits(const Samples& d, V u0, V u1, V u2, V u3, V residuals) {
+  const auto high = hn::Add(hn::Add(hn::ShiftRight<kK>(u0), hn::ShiftRight<kK>(u1)),
+                            hn::Add(hn::ShiftRight<kK>(u2), hn::ShiftRight<kK>(u3)));
+  // residuals · (1 + k), by additions: no 16-bit multiplication needed
+  auto fixed = hn::Set(d, 3);
+  for (int i = 0; i <= kK; ++i) fixed = hn::Add(fixed, residuals);
+  return hn::Add(high, fixed);
+}
+
+uint32_t RasCodeBits(const int16_t* HWY_RESTRICT samples) {
+  const Samples d;
+  const hn::Repartition<uint64_t, Samples> d64;  // one pixel a lane
+  const hn::Repartition<int32_t, Samples> d32;
+  auto total = hn::Zero(d32);
+  HWY_ALIGN static constexpr int16_t kFirstGroup[32] = {3, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4,
+                                                        4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4};
+  const auto four = hn::Set(d, 4);
+  for (int32_t half = 0; half < 8; half += 4)  // two pairs of rows at once
+    for (size_t x = 0; x < 32; x += hn::Lanes(d)) {
+      const int16_t* at = samples + ras_sample_index(0, half) + x;
+      const auto row0 = FoldedResidual(d, at, four), row1 = FoldedResidual(d, at + kRasRowSamples, four);
+      const auto row2 = FoldedResidual(d, at + 2 * kRasRowSamples, four);
+      const auto row3 = FoldedResidual(d, at + 3 * kRasRowSamples, four);
+      const auto as64 = [&](decltype(row0) v) HWY_ATTR { return hn::BitCast(d64, v); };
+      // Even and odd pixels of the upper and the lower pair of rows: lane by lane the four residuals of a
+      // group.
+      const auto u0 = hn::BitCast(d, hn::InterleaveLower(d64, as64(row0), as64(row2)));
+      const auto u1 = hn::BitCast(d, hn::InterleaveUpper(d64, as64(row0), as64(row2)));
+      const auto u2 = hn::BitCast(d, hn::InterleaveLower(d64, as64(row1), as64(row3)));
+      const auto u3 = hn::BitCast(d, hn::InterleaveUpper(d64, as64(row1), as64(row3)));
+      const auto residuals = half == 0 && x == 0 ? hn::LoadU(d, kFirstGroup) : four;
+      auto best = GroupBits<0>(d, u0, u1, u2, u3, residuals);
+      best = hn::Min(best, GroupBits<1>(d, u0, u1, u2, u3, residuals));
+      best = hn::Min(best, GroupBits<2>(d, u0, u1, u2, u3, residuals));
+      best = hn::Min(best, GroupBits<3>(d, u0, u1, u2, u3, residuals));
+      best = hn::Min(best, GroupBits<4>(d, u0, u1, u2, u3, residuals));
+      best = hn::Min(best, GroupBits<5>(d, u0, u1, u2, u3, residuals));
+      best = hn::Min(best, GroupBits<6>(d, u0, u1, u2, u3, residuals));
+      const auto zero = hn::Eq(hn::Or(hn::Or(u0, u1), hn::Or(u2, u3)), hn::Zero(d));
+      best = hn::IfThenElse(zero, hn::Set(d, 3), best);
+      // Sum pairs of 16-bit lanes into 32-bit ones; a group's bits are positive and far below 2^15.
+      const auto pairs = hn::BitCast(d32, best);
+      total =
+          hn::Add(total, hn::Add(hn::ShiftRight<16>(pairs), hn::ShiftRight<16>(hn::ShiftLeft<16>(pairs))));
+    }
+  return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(d32, total)));
+}
+
+void WidenBytes(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, int16_t* HWY_RESTRICT samples) {
+  const Samples d;
+  const hn::Rebind<uint8_t, Samples> d8;
+  for (uint32_t y = 0; y < 8; ++y) {
+    const auto* row = reinterpret_cast<const uint8_t*>(top_left + size_t{y} * stride);
+    int16_t* out = samples + ras_sample_index(0, static_cast<int32_t>(y));
+    for (size_t x = 0; x < 32; x += hn::Lanes(d))
+      hn::StoreU(hn::PromoteTo(d, hn::LoadU(d8, row + x)), d, out + x);
+  }
+}
+
+const Kernels& Set(const char* name) {
+  static const Kernels kSet = {name,       LoadTraversal, Find,        WidthSum,
+                               CountBelow, Members,       RasCodeBits, WidenBytes};
+  return kSet;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tilepress
+HWY_AFTER_NAMESPACE();
+#endif
+
+#if HWY_ONCE
+namespace tilepress {
+
+// Chosen here and not by Highway's own dispatcher, which lives in a shared library: the engine inside other
+// people's programs must not bring libraries along.
+std::vector<const Kernels*> highway_kernels() {
+  std::vector<const Kernels*> sets;
+#if HWY_ARCH_X86
+  __builtin_cpu_init();
+#if HWY_TARGETS & HWY_AVX3
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512cd"))
+    sets.push_back(&N_AVX3::Set("avx512"));
+#endif
+#if HWY_TARGETS & HWY_AVX2
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
+    sets.push_back(&N_AVX2::Set("avx2"));
+#endif
+#if HWY_TARGETS & HWY_SSE4
+  if (__builtin_cpu_supports("sse4.1") && __builtin_cpu_supports("sse4.2"))
+    sets.push_back(&N_SSE4::Set("sse4"));
+#endif
+#elif HWY_ARCH_ARM_A64
+  sets.push_back(&N_NEON::Set("neon"));
+#endif
+  return sets;
+}
+
+}  // namespace tilepress
+#endif

@@ -1,0 +1,102 @@
+// Scalar kernels: the plain definition of every kernel.
+#include <algorithm>
+#include <bit>
+
+#include "ras/ras_samples.h"
+#include "simd/kernel_sets.h"
+#include "tilepress/block.h"
+
+namespace tilepress {
+namespace {
+
+bool load_traversal(const uint32_t* top_left, uint32_t stride, uint32_t* pixels) {
+  bool uniform = true;
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    pixels[i] = top_left[kTraversal[i] / 8 * stride + kTraversal[i] % 8];
+    uniform &= pixels[i] == pixels[0];
+  }
+  return uniform;
+}
+
+void find(const uint32_t* pixels, const ProbeTable& table, uint32_t absent, uint32_t* values,
+          uint32_t* largest) {
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    const uint32_t at = table.bucket(pixels[i]);
+    values[i] = table.colors[at] == pixels[i] ? table.values[at] : absent;
+  }
+  for (uint32_t i = 0; i < kLanes; i += 4)
+    std::fill_n(largest + i, 4, std::max({values[i], values[i + 1], values[i + 2], values[i + 3]}));
+}
+
+uint32_t width_sum(const uint32_t* largest, uint32_t absent, uint32_t raw_bits) {
+  uint32_t bits = 0;
+  for (uint32_t i = 0; i < kLanes; ++i)
+    bits += largest[i] == absent ? raw_bits : static_cast<uint32_t>(std::bit_width(largest[i]));
+  return bits;
+}
+
+uint32_t count_below(const uint32_t* largest, uint32_t limit) {
+  return static_cast<uint32_t>(
+      std::count_if(largest, largest + kLanes, [&](uint32_t v) { return v < limit; }));
+}
+
+uint64_t members(const uint32_t* pixels, const ProbeTable& table, uint32_t outside, uint32_t* buckets) {
+  uint64_t mask = 0;
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    const uint32_t at = table.bucket(pixels[i]);
+    const bool in = table.colors[at] == pixels[i];
+    buckets[i] = in ? at : outside;
+    mask |= uint64_t{in} << i;
+  }
+  return mask;
+}
+
+int32_t median_edge(int32_t a, int32_t b, int32_t c) {
+  if (c >= std::max(a, b)) return std::min(a, b);
+  if (c <= std::min(a, b)) return std::max(a, b);
+  return a + b - c;
+}
+
+uint32_t ras_code_bits(const int16_t* samples) {
+  uint32_t bits = 0;
+  for (uint32_t group = 0; group < kSubBlocks; ++group)
+    for (uint32_t plane = 0; plane < 4; ++plane) {
+      uint32_t u[4], any = 0;
+      for (uint32_t i = 0; i < 4; ++i) {
+        const uint32_t x = kTraversal[4 * group + i] % 8, y = kTraversal[4 * group + i] / 8;
+        const int16_t* at = samples + ras_sample_index(x, y) + plane;
+        const int32_t e = at[0] - median_edge(at[-4], at[-kRasRowSamples], at[-kRasRowSamples - 4]);
+        any |= u[i] = e >= 0 ? 2u * static_cast<uint32_t>(e) : 2u * static_cast<uint32_t>(-e) - 1;
+      }
+      if (any == 0) {
+        bits += 3;
+        continue;
+      }
+      uint32_t best = ~0u;
+      for (uint32_t k = 0; k <= 6; ++k) {
+        uint32_t sum = 3;
+        for (uint32_t i = group == 0 ? 1 : 0; i < 4; ++i) sum += (u[i] >> k) + 1 + k;
+        best = std::min(best, sum);
+      }
+      bits += best;
+    }
+  return bits;
+}
+
+void widen_bytes(const uint32_t* top_left, uint32_t stride, int16_t* samples) {
+  for (uint32_t y = 0; y < kBlockSide; ++y)
+    for (uint32_t x = 0; x < kBlockSide; ++x)
+      for (uint32_t c = 0; c < 4; ++c)
+        samples[ras_sample_index(x, y) + c] =
+            static_cast<int16_t>(top_left[y * stride + x] >> (8 * c) & 0xFF);
+}
+
+}  // namespace
+
+const Kernels& scalar_kernels() {
+  static const Kernels kScalar = {"scalar",    load_traversal, find,          width_sum,
+                                  count_below, members,        ras_code_bits, widen_bytes};
+  return kScalar;
+}
+
+}  // namespace tilepress
