@@ -16,7 +16,8 @@ class BitWriter {
  public:
   explicit BitWriter(std::span<uint8_t> buffer) : buffer_(buffer) {}
 
-  /// Appends the low `count` bits of `value`, highest first. count ≤ kMaxBitsPerCall; higher bits of value are 0.
+  /// Appends the low `count` bits of `value`, highest first. count ≤ kMaxBitsPerCall; higher bits of value
+  /// are 0.
   void put(uint64_t value, uint32_t count) {
     assert(count <= kMaxBitsPerCall && (count == 64 || value >> count == 0));
     accumulator_ = (accumulator_ << count) | value;
@@ -73,13 +74,18 @@ class BitReader {
       const uint32_t take = left < 8 - in_byte ? left : 8 - in_byte;
       uint32_t bits = 0;
       if (position_ < end_) bits = (buffer_[position_ >> 3] >> (8 - in_byte - take)) & ((1u << take) - 1);
+      if (position_ + take > end_ && position_ < end_) {  // the end lies inside the byte
+        const uint32_t beyond = static_cast<uint32_t>(position_ + take - end_);
+        bits = bits >> beyond << beyond;
+      }
       value = (value << take) | bits;
       position_ += take;
       left -= take;
     }
     return value;
   }
-  /// Number of one-bits before the next zero-bit, which is consumed; gives up and returns limit + 1 past `limit`.
+  /// Number of one-bits before the next zero-bit, which is consumed; gives up and returns limit + 1 past
+  /// `limit`.
   uint32_t get_unary(uint32_t limit) {
     uint32_t count = 0;
     while (get(1) != 0)

@@ -1,0 +1,116 @@
+// Bit writer and reader: order, limits, truncation.
+#include "tilepress/bit_io.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+using tilepress::BitReader;
+using tilepress::BitWriter;
+
+TEST(BitIo, HighestBitGoesFirstAndTheLastByteIsFilledWithZeros) {
+  std::array<uint8_t, 2> bytes{0xFF, 0xFF};
+  BitWriter writer(bytes);
+  writer.put(0b101, 3);
+  writer.put(0, 0);
+  writer.put(0b11, 2);
+  writer.put(0b011011, 6);
+  writer.flush();
+  EXPECT_EQ(bytes[0], 0b10111011);  // 101 11 011
+  EXPECT_EQ(bytes[1], 0b01100000);  // 011 and five bits of filling
+  EXPECT_EQ(writer.bit_count(), 11u);
+  EXPECT_FALSE(writer.overflowed());
+}
+
+TEST(BitIo, TheLargestCallFitsBesideSevenPendingBits) {
+  std::array<uint8_t, 8> bytes{};
+  const uint64_t value = (uint64_t{1} << 57) - 2;
+  BitWriter writer(bytes);
+  writer.put(0b1010101, 7);
+  writer.put(value, tilepress::kMaxBitsPerCall);
+  writer.flush();
+  BitReader reader(bytes);
+  EXPECT_EQ(reader.get(7), 0b1010101u);
+  EXPECT_EQ(reader.get(57), value);
+  EXPECT_FALSE(reader.overran());
+}
+
+TEST(BitIo, UnaryOfAnyLengthComesBack) {
+  for (uint32_t count : {0u, 1u, 31u, 32u, 33u, 64u, 100u}) {
+    std::array<uint8_t, 16> bytes{};
+    BitWriter writer(bytes);
+    writer.put_unary(count);
+    writer.flush();
+    EXPECT_EQ(writer.bit_count(), count + 1);
+    BitReader reader(bytes, writer.bit_count());
+    EXPECT_EQ(reader.get_unary(100), count);
+    EXPECT_EQ(reader.position(), count + 1);
+  }
+}
+
+TEST(BitIo, UnaryGivesUpPastItsLimit) {
+  const std::array<uint8_t, 4> ones{0xFF, 0xFF, 0xFF, 0xFF};
+  BitReader reader(ones);
+  EXPECT_EQ(reader.get_unary(5), 6u);
+}
+
+TEST(BitIo, PadToFillsWithZerosUpToTheGivenLength) {
+  std::array<uint8_t, 16> bytes;
+  bytes.fill(0xFF);
+  BitWriter writer(bytes);
+  writer.put(1, 1);
+  writer.pad_to(100);
+  writer.flush();
+  EXPECT_EQ(writer.bit_count(), 100u);
+  EXPECT_EQ(bytes[0], 0x80);
+  for (size_t i = 1; i < 13; ++i) EXPECT_EQ(bytes[i], 0) << i;
+  EXPECT_EQ(bytes[13], 0xFF);
+}
+
+TEST(BitIo, AWriterCountsWhatDoesNotFitAndWritesNothingThere) {
+  std::array<uint8_t, 3> bytes{0, 0, 0xA5};
+  BitWriter writer(std::span<uint8_t>(bytes).first(2));
+  writer.put(0xFFFF, 16);
+  EXPECT_FALSE(writer.overflowed());
+  writer.put(1, 1);
+  writer.flush();
+  EXPECT_TRUE(writer.overflowed());
+  EXPECT_EQ(writer.bit_count(), 17u);
+  EXPECT_EQ(bytes[2], 0xA5);
+}
+
+TEST(BitIo, PastTheEndAReaderGivesZerosAndRemembers) {
+  const std::array<uint8_t, 1> bytes{0xFF};
+  BitReader reader(bytes);
+  EXPECT_EQ(reader.get(4), 0xFu);
+  EXPECT_EQ(reader.get(8), 0xF0u);  // four bits of the buffer, four beyond
+  EXPECT_TRUE(reader.overran());
+  EXPECT_EQ(reader.get(57), 0u);
+  EXPECT_EQ(reader.get_unary(9), 0u);
+}
+
+TEST(BitIo, AnEndInsideAByteHidesTheBitsBehindIt) {
+  const std::array<uint8_t, 1> bytes{0xFF};
+  BitReader reader(bytes, 3);
+  EXPECT_EQ(reader.get(8), 0b11100000u);
+  EXPECT_TRUE(reader.overran());
+}
+
+TEST(BitIo, ABitCountBeyondTheBufferEndsAtTheBuffer) {
+  const std::array<uint8_t, 1> bytes{0xFF};
+  BitReader reader(bytes, 1000);
+  reader.skip(8);
+  EXPECT_FALSE(reader.overran());
+  EXPECT_EQ(reader.get(1), 0u);
+  EXPECT_TRUE(reader.overran());
+}
+
+TEST(BitIo, SkippingPastTheEndIsRemembered) {
+  const std::vector<uint8_t> bytes(4, 0xFF);
+  BitReader reader(bytes);
+  reader.skip(33);
+  EXPECT_TRUE(reader.overran());
+  EXPECT_EQ(reader.get(8), 0u);
+}

@@ -1,0 +1,134 @@
+// Block harness: one scheme, one dictionary, one block at a time, with the bits in the open.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "dcp/ccd.h"
+#include "ras/ras_stream.h"
+#include "surface_patterns.h"
+#include "tilepress/scheme.h"
+
+namespace harness {
+
+using namespace tilepress;
+
+inline SchemeSpec parsed(const std::string& text) {
+  std::string error;
+  auto spec = parse_scheme(text, error);
+  if (!spec) throw std::runtime_error(error);
+  return *spec;
+}
+
+/// A block and the bits that stand for it.
+struct Encoded {
+  std::vector<uint8_t> payload, csb;
+  uint32_t payload_bits = 0, csb_bits = 0;
+  BitReader read_payload() const { return BitReader(payload, payload_bits); }
+  BitReader read_csb() const { return BitReader(csb, csb_bits); }
+};
+
+/// A CCD of `entries` slots that holds `colors` in this order.
+inline Ccd dictionary(uint32_t entries, const std::vector<uint32_t>& colors) {
+  Ccd ccd;
+  ccd.entries = entries;
+  ccd.colors = colors;
+  for (size_t i = 0; i < colors.size(); ++i)
+    ccd.counts.push_back(static_cast<uint32_t>(2 * colors.size() - i));
+  for (const uint32_t count : ccd.counts) ccd.samples += count;
+  ccd.coverage = 1;
+  return ccd;
+}
+
+inline Block solid(uint32_t color) {
+  Block block;
+  block.pixels.fill(color);
+  return block;
+}
+
+class BlockHarness {
+ public:
+  /// `ccd` null: no dictionary yet.
+  BlockHarness(const std::string& text, const Ccd* ccd, PixelFormat format = PixelFormat::kRgba8,
+               const ModelOptions& model = {})
+      : format_(traits(format)), has_ccd_(ccd != nullptr) {
+    if (ccd != nullptr) ccd_ = *ccd;
+    const SchemeSpec spec = parsed(text);
+    const SchemeInfo* info = find_scheme(spec.name);
+    encoder_ = info->make_encoder(spec, format_, model);
+    decoder_ = info->make_decoder(spec, format_, model);
+    const reference::Picture picture{8, 8, std::vector<uint32_t>(64)};
+    plane_.assign(patterns::in_memory(picture, format).view());
+    encoder_->begin_frame(
+        {.plane = plane_, .ordinal = has_ccd_ ? 1u : 0u, .ccd = has_ccd_ ? &ccd_ : nullptr});
+    tables_.resize((encoder_->palette_bits() + 7) / 8);
+    BitWriter writer(tables_);
+    encoder_->write_tables(writer);
+    writer.flush();
+    tables_written_ = writer.bit_count();
+    BitReader reader(tables_, tables_written_);
+    tables_accepted_ = decoder_->begin_frame(reader, tables_written_, encoder_->csb_bits());
+  }
+
+  uint32_t measure(const Block& block) const {
+    std::array<uint16_t, kBlockPixels> indices;
+    return encoder_->measure(context(block, indices));
+  }
+  Encoded encode(const Block& block) const {
+    std::array<uint16_t, kBlockPixels> indices;
+    Encoded out;
+    out.payload.resize(kMaxRawBlockBits / 8);
+    out.csb.resize(16);
+    BitWriter payload(out.payload), csb(out.csb);
+    encoder_->encode(context(block, indices), payload, csb);
+    payload.flush();
+    csb.flush();
+    out.payload_bits = static_cast<uint32_t>(payload.bit_count());
+    out.csb_bits = static_cast<uint32_t>(csb.bit_count());
+    return out;
+  }
+  bool decode(const Encoded& bits, Block& out) const {
+    BitReader csb = bits.read_csb(), payload = bits.read_payload();
+    return decoder_->decode(csb, payload, out);
+  }
+  /// Decodes what encode() wrote and compares.
+  bool returns(const Block& block) const {
+    Block out;
+    out.pixels.fill(0xDEADBEEF);
+    const Encoded bits = encode(block);
+    return bits.payload_bits == measure(block) && bits.csb_bits == encoder_->csb_bits() &&
+           decode(bits, out) && out == block;
+  }
+  const BlockEncoder& encoder() const { return *encoder_; }
+  BlockDecoder& decoder() { return *decoder_; }
+  uint64_t tables_written() const { return tables_written_; }
+  bool tables_accepted() const { return tables_accepted_; }
+
+ private:
+  BlockContext context(const Block& block, std::array<uint16_t, kBlockPixels>& indices) const {
+    for (uint32_t i = 0; i < kBlockPixels; ++i) {
+      const auto at = std::find(ccd_.colors.begin(), ccd_.colors.end(), block.pixels[i]);
+      indices[i] = at == ccd_.colors.end() ? kNotInCcd : static_cast<uint16_t>(at - ccd_.colors.begin());
+    }
+    BlockContext result{.block = block};
+    result.ccd_indices = has_ccd_ ? indices.data() : nullptr;
+    result.ras_bits = ras_stream_bits(block, format_, false);
+    result.ras_ycocg_bits = ras_stream_bits(block, format_, true);
+    return result;
+  }
+  const FormatTraits format_;
+  const bool has_ccd_;
+  Ccd ccd_;
+  PixelPlane plane_;
+  std::unique_ptr<BlockEncoder> encoder_;
+  std::unique_ptr<BlockDecoder> decoder_;
+  std::vector<uint8_t> tables_;
+  uint64_t tables_written_ = 0;
+  bool tables_accepted_ = false;
+};
+
+}  // namespace harness

@@ -1,0 +1,83 @@
+// CSV rows: quoting, numbers, columns.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "tilepress/statistics.h"
+
+using namespace tilepress;
+
+TEST(Csv, QuotesAFieldOnlyWhereItMust) {
+  EXPECT_EQ(csv_field("vdcp"), "vdcp");
+  EXPECT_EQ(csv_field("vdcp:fvc=128,policy=2lfc"), "\"vdcp:fvc=128,policy=2lfc\"");
+  EXPECT_EQ(csv_field("a\"b"), "\"a\"\"b\"");
+  EXPECT_EQ(csv_field("a\nb"), "\"a\nb\"");
+}
+
+TEST(Csv, NumbersReadBackExactly) {
+  EXPECT_EQ(csv_number(0), "0");
+  EXPECT_EQ(csv_number(0.5), "0.5");
+  EXPECT_EQ(csv_number(42.0), "42");
+  for (const double value : {1.0 / 3, 5.26, 1e-9, 123456789.123}) {
+    const std::string text = csv_number(value);
+    double back = 0;
+    std::from_chars(text.data(), text.data() + text.size(), back);
+    EXPECT_EQ(back, value) << text;
+  }
+}
+
+TEST(Csv, HeadersBeginWithTheAgreedColumns) {
+  EXPECT_EQ(
+      frames_csv_header(),
+      "frame,surface,width,height,format,warmup,time_ns,unique_colors,entropy,pixel_change,color_change,"
+      "fvc_coverage,fvc_relative_coverage,top100_coverage,readback_ns,encode_ns\n");
+  EXPECT_EQ(
+      schemes_csv_header().find("frame,surface,scheme,warmup,blocks,raw_bits,payload_bits,bursts,csb_bits,"
+                                "palette_bits,rate_payload,rate,"),
+      0u);
+}
+
+TEST(Csv, ARowPerSchemeWithAsManyFieldsAsTheHeader) {
+  FrameStatistics frame;
+  frame.frame = 7;
+  frame.surface = 2;
+  frame.schemes.resize(2);
+  frame.schemes[0].blocks = 1;
+  frame.schemes[0].raw_bits = 2048;
+  frame.schemes[0].payload_bits = 1000;
+  frame.schemes[0].bursts = 8;
+  frame.schemes[0].csb_bits = 24;
+  std::string rows;
+  append_schemes_rows(frame, {"ras", "red"}, rows);
+  // rate_payload = 2048 / 1024 = 2, rate = 2048 / (8·128 + 24) = 1.954…
+  EXPECT_EQ(rows.find("7,2,ras,0,1,2048,1000,8,24,0,2,1.95419847328244"), 0u) << rows;
+  const std::string header = schemes_csv_header(), first = rows.substr(0, rows.find('\n'));
+  EXPECT_EQ(std::count(first.begin(), first.end(), ','), std::count(header.begin(), header.end(), ','));
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 2);
+
+  frame.format = PixelFormat::kRgb565;
+  frame.width = 640;
+  frame.height = 480;
+  frame.warmup = true;
+  std::string row;
+  append_frames_row(frame, row);
+  EXPECT_EQ(row.find("7,2,640,480,RGB565,1,0,0,0,"), 0u) << row;
+}
+
+TEST(Statistics, ARateOfNothingMovedIsZeroNotInfinite) {
+  SchemeStatistics nothing;
+  EXPECT_EQ(nothing.rate(), 0.0);
+  EXPECT_EQ(nothing.rate_payload(), 0.0);
+}
+
+TEST(Statistics, ARunsRateIsTheQuotientOfTheSums) {
+  SchemeStatistics a, b;
+  a.raw_bits = b.raw_bits = 2048;
+  a.bursts = 4;   // 512 bits
+  b.bursts = 12;  // 1536 bits
+  a += b;
+  EXPECT_EQ(a.rate(), 2.0);  // 4096 / 2048, not the mean of 4 and 1.33
+}

@@ -1,0 +1,141 @@
+// Hostile bits: every decoder survives random, altered and truncated input with a status.
+#include <gtest/gtest.h>
+
+#include "block_harness.h"
+
+using namespace harness;
+
+namespace {
+
+/// Schemes and options that differ in what they read.
+const char* const kSchemes[] = {
+    "dcp",  "dcp:fvc=2",   "adcp", "vdcp",        "vdcp:fvc=1024", "huffdcp",         "huffdcp:fvc=256",
+    "hdcp", "hdcp:fvc=16", "ras",  "ras:ycocg=1", "ras:sizes=2",   "ras:sizes=burst", "red"};
+const PixelFormat kFormats[] = {PixelFormat::kRgba8, PixelFormat::kRgb565, PixelFormat::kRgb10a2};
+
+std::vector<uint8_t> random_bytes(patterns::Dice& dice, size_t size) {
+  // Mostly noise; at times mostly zeros or ones, which reach the ends of unary codes and of tables.
+  const uint32_t kind = dice.below(4);
+  std::vector<uint8_t> bytes(size);
+  for (uint8_t& byte : bytes) {
+    const auto a = static_cast<uint8_t>(dice.next()), b = static_cast<uint8_t>(dice.next());
+    byte = kind == 0 ? a & b : kind == 1 ? a | b : a;
+  }
+  return bytes;
+}
+
+uint32_t entries_of(const char* text) {
+  return parsed(text).fvc.entries;
+}
+
+Ccd some_dictionary(uint32_t entries, PixelFormat format, patterns::Dice& dice) {
+  std::vector<uint32_t> colors;
+  for (uint32_t i = 0; i < std::min(entries, 40u); ++i)
+    colors.push_back(patterns::fit(dice.next() << 8 | i, format));
+  return dictionary(entries, colors);
+}
+
+Block some_block(const Ccd& ccd, PixelFormat format, patterns::Dice& dice) {
+  Block block;
+  for (uint32_t& word : block.pixels)
+    word = dice.below(9) == 0 ? patterns::fit(dice.next(), format)
+                              : ccd.colors[dice.below(static_cast<uint32_t>(ccd.colors.size()))];
+  return block;
+}
+
+}  // namespace
+
+TEST(HostileBits, RandomTablesAreTakenOrRefused) {
+  patterns::Dice dice(1);
+  for (const char* text : kSchemes)
+    for (const PixelFormat format : kFormats) {
+      BlockHarness scheme(text, nullptr, format);
+      for (int round = 0; round < 200; ++round) {
+        const auto bytes = random_bytes(dice, dice.below(200));
+        const uint64_t bits = dice.below(2) ? bytes.size() * 8 : dice.below(70000);
+        const uint32_t csb_bits = dice.below(2) ? scheme.encoder().csb_bits() : dice.below(100);
+        BitReader tables(bytes);
+        const bool taken = scheme.decoder().begin_frame(tables, bits, csb_bits);
+        if (taken) {
+          EXPECT_FALSE(tables.overran()) << text;
+        }
+      }
+    }
+}
+
+TEST(HostileBits, RandomBlocksAreDecodedOrRefused) {
+  patterns::Dice dice(2);
+  for (const char* text : kSchemes)
+    for (const PixelFormat format : kFormats) {
+      const Ccd ccd = some_dictionary(entries_of(text), format, dice);
+      const BlockHarness scheme(text, &ccd, format);
+      ASSERT_TRUE(scheme.tables_accepted()) << text;
+      for (int round = 0; round < 300; ++round) {
+        Encoded bits;
+        bits.payload = random_bytes(dice, dice.below(280));
+        bits.csb = random_bytes(dice, dice.below(12));
+        bits.payload_bits = static_cast<uint32_t>(bits.payload.size() * 8);
+        bits.csb_bits = static_cast<uint32_t>(bits.csb.size() * 8);
+        Block out{};
+        if (!scheme.decode(bits, out)) continue;
+        for (const uint32_t word : out.pixels)
+          EXPECT_EQ(uint64_t{word} >> traits(format).pixel_bits, 0u) << text << ": no such pixel";
+      }
+    }
+}
+
+TEST(HostileBits, AnAlteredBitGivesAnotherBlockOrNone) {
+  patterns::Dice dice(3);
+  for (const char* text : kSchemes) {
+    const Ccd ccd = some_dictionary(entries_of(text), PixelFormat::kRgba8, dice);
+    const BlockHarness scheme(text, &ccd);
+    for (int round = 0; round < 100; ++round) {
+      Encoded bits = scheme.encode(some_block(ccd, PixelFormat::kRgba8, dice));
+      auto& bytes = dice.below(3) == 0 || bits.payload_bits == 0 ? bits.csb : bits.payload;
+      const uint32_t length = &bytes == &bits.csb ? bits.csb_bits : bits.payload_bits;
+      const uint32_t at = dice.below(length);
+      bytes[at / 8] ^= static_cast<uint8_t>(0x80 >> at % 8);
+      Block out{};
+      scheme.decode(bits, out);
+    }
+  }
+}
+
+TEST(HostileBits, EveryTruncationOfABlockIsRefused) {
+  patterns::Dice dice(4);
+  for (const char* text : kSchemes) {
+    const Ccd ccd = some_dictionary(entries_of(text), PixelFormat::kRgba8, dice);
+    const BlockHarness scheme(text, &ccd);
+    const Encoded whole = scheme.encode(some_block(ccd, PixelFormat::kRgba8, dice));
+    Block out{};
+    ASSERT_TRUE(scheme.decode(whole, out)) << text;
+    for (uint32_t length = 0; length < whole.payload_bits; ++length) {
+      Encoded cut = whole;
+      cut.payload_bits = length;
+      EXPECT_FALSE(scheme.decode(cut, out)) << text << " cut to " << length << " of " << whole.payload_bits;
+    }
+    for (uint32_t length = 0; length < whole.csb_bits; ++length) {
+      Encoded cut = whole;
+      cut.csb_bits = length;
+      EXPECT_FALSE(scheme.decode(cut, out)) << text << " CSB cut to " << length;
+    }
+  }
+}
+
+TEST(HostileBits, EveryTruncationOfTheTablesIsRefused) {
+  patterns::Dice dice(5);
+  for (const char* text : {"dcp", "adcp", "vdcp", "huffdcp", "hdcp"}) {
+    const Ccd ccd = some_dictionary(64, PixelFormat::kRgba8, dice);
+    BlockHarness scheme(text, &ccd);
+    const uint64_t whole = scheme.tables_written();
+    std::vector<uint8_t> bytes(whole / 8 + 1);
+    BitWriter writer(bytes);
+    scheme.encoder().write_tables(writer);
+    writer.flush();
+    for (uint64_t length = 0; length < whole; ++length) {
+      BitReader tables(bytes, length);
+      EXPECT_FALSE(scheme.decoder().begin_frame(tables, whole, scheme.encoder().csb_bits()))
+          << text << length;
+    }
+  }
+}

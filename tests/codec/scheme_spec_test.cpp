@@ -1,0 +1,134 @@
+// Scheme specifications: what is understood, and what each error names.
+#include "tilepress/scheme_spec.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "tilepress/scheme.h"
+
+using namespace tilepress;
+
+namespace {
+
+SchemeSpec good(const std::string& text) {
+  std::string error = "untouched";
+  const auto spec = parse_scheme(text, error);
+  EXPECT_TRUE(spec.has_value()) << text << ": " << error;
+  return spec.value_or(SchemeSpec{});
+}
+
+std::string fault(const std::string& text) {
+  std::string error;
+  EXPECT_FALSE(parse_scheme(text, error).has_value()) << text;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << "one line: " << error;
+  EXPECT_NE(error.find("scheme '" + text + "'"), std::string::npos) << error;
+  return error;
+}
+
+}  // namespace
+
+TEST(SchemeSpec, ANameAloneTakesTheDefaultsOfThePaper) {
+  const SchemeSpec spec = good("vdcp");
+  EXPECT_EQ(spec.text, "vdcp");
+  EXPECT_EQ(spec.name, "vdcp");
+  EXPECT_EQ(spec.fvc.entries, 64u);
+  EXPECT_EQ(spec.fvc.policy, FvcPolicy::kLfc);
+  EXPECT_EQ(spec.fvc.ways_per_set(), 64u);
+  EXPECT_EQ(spec.fvc.sample, 1u);
+  EXPECT_EQ(spec.fvc.period, 1u);
+  EXPECT_EQ(spec.coverage, 0.0);
+}
+
+TEST(SchemeSpec, TakesEveryKeyOfTheFamily) {
+  const SchemeSpec spec = good("hdcp:fvc=128,policy=2lfc,ways=8,sample=16,period=3,coverage=0.7");
+  EXPECT_EQ(spec.fvc.entries, 128u);
+  EXPECT_EQ(spec.fvc.policy, FvcPolicy::k2Lfc);
+  EXPECT_EQ(spec.fvc.ways_per_set(), 8u);
+  EXPECT_EQ(spec.fvc.sample, 16u);
+  EXPECT_EQ(spec.fvc.period, 3u);
+  EXPECT_EQ(spec.coverage, 0.7);
+  EXPECT_EQ(good("dcp:policy=lru").fvc.policy, FvcPolicy::kLru);
+  EXPECT_EQ(good("dcp:policy=random").fvc.policy, FvcPolicy::kRandom);
+  EXPECT_EQ(good("dcp:fvc=2").fvc.entries, 2u);
+  EXPECT_EQ(good("dcp:fvc=1024").fvc.entries, 1024u);
+  EXPECT_EQ(good("dcp:coverage=1").coverage, 1.0);
+}
+
+TEST(SchemeSpec, TakesTheKeysOfRas) {
+  EXPECT_TRUE(good("ras:ycocg=1").ycocg);
+  EXPECT_FALSE(good("ras:ycocg=0").ycocg);
+  EXPECT_EQ(good("ras:sizes=2").ras_sizes, RasSizes::kTwo);
+  EXPECT_EQ(good("ras:sizes=3").ras_sizes, RasSizes::kThree);
+  EXPECT_EQ(good("ras:sizes=burst,ycocg=1").ras_sizes, RasSizes::kBurst);
+}
+
+TEST(SchemeSpec, AFullyAssociativeFvcIsOneConfigurationHoweverItIsWritten) {
+  EXPECT_EQ(good("dcp:ways=64").fvc, good("dcp").fvc);
+  EXPECT_FALSE(good("dcp:ways=32").fvc == good("dcp").fvc);
+}
+
+TEST(SchemeSpec, ErrorsNameTheFault) {
+  const std::pair<const char*, const char*> faults[] = {
+      {"", "unknown scheme ''"},
+      {"zip", "unknown scheme 'zip' (there are dcp,"},
+      {"VDCP", "unknown scheme 'VDCP'"},
+      {"vdcp ", "unknown scheme 'vdcp '"},
+      {"vdcp:", "nothing after ':'"},
+      {"vdcp:fvc=64,", "nothing after the last ','"},
+      {"vdcp:fvc", "'fvc' is not key=value"},
+      {"vdcp:,fvc=64", "'' is not key=value"},
+      {"vdcp:size=64", "unknown key 'size'"},
+      {"vdcp:ycocg=1", "unknown key 'ycocg'"},
+      {"ras:fvc=64", "unknown key 'fvc'"},
+      {"red:fvc=64", "unknown key 'fvc'"},
+      {"vdcp:fvc=", "fvc=: must be a power of two from 2 to 1024"},
+      {"vdcp:fvc=1", "fvc=1: must be a power of two from 2 to 1024"},
+      {"vdcp:fvc=48", "fvc=48: must be a power of two from 2 to 1024"},
+      {"vdcp:fvc=2048", "fvc=2048: must be"},
+      {"vdcp:fvc=64x", "fvc=64x: must be"},
+      {"vdcp:fvc= 64", "fvc= 64: must be"},
+      {"vdcp:fvc=-64", "fvc=-64: must be"},
+      {"vdcp:fvc=99999999999999999999", "must be a power of two"},
+      {"vdcp:policy=lfu", "policy=lfu: must be lfc, 2lfc, lru or random"},
+      {"vdcp:ways=3", "ways=3: must divide the FVC size 64"},
+      {"vdcp:ways=128", "ways=128: must divide the FVC size 64"},
+      {"vdcp:ways=0", "ways=0: must be"},
+      {"vdcp:sample=0", "sample=0: must be a whole number from 1"},
+      {"vdcp:period=0", "period=0: must be a whole number from 1"},
+      {"vdcp:coverage=1.1", "coverage=1.1: must be a number from 0 to 1"},
+      {"vdcp:coverage=-0.1", "coverage=-0.1: must be"},
+      {"vdcp:coverage=nan", "coverage=nan: must be"},
+      {"vdcp:fvc=64,fvc=64", "key 'fvc' given twice"},
+      {"ras:ycocg=2", "ycocg=2: must be 0 or 1"},
+      {"ras:sizes=4", "sizes=4: must be 2, 3 or burst"},
+  };
+  for (const auto& [text, named] : faults) {
+    const std::string error = fault(text);
+    EXPECT_NE(error.find(named), std::string::npos) << text << " gives: " << error;
+  }
+}
+
+TEST(SchemeSpec, TheDefaultIsThePapersSevenInTheirOrder) {
+  std::string names;
+  for (const SchemeSpec& spec : default_schemes()) names += spec.text + " ";
+  EXPECT_EQ(names, "dcp adcp vdcp huffdcp ras red hdcp ");
+}
+
+TEST(Registry, EverySchemeIsDescribedAndMakesBothSides) {
+  std::set<std::string> names;
+  for (const SchemeInfo& info : scheme_registry()) {
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+    EXPECT_GT(std::string(info.label).size(), 1u);
+    EXPECT_GT(std::string(info.summary).size(), 10u) << info.name;
+    EXPECT_GT(std::string(info.source).size(), 3u) << info.name;
+    EXPECT_EQ(find_scheme(info.name), &info);
+    const SchemeSpec spec = good(info.name);
+    for (const PixelFormat format : {PixelFormat::kRgba8, PixelFormat::kRgb565, PixelFormat::kRgb10a2}) {
+      EXPECT_NE(info.make_encoder(spec, traits(format), {}), nullptr);
+      EXPECT_NE(info.make_decoder(spec, traits(format), {}), nullptr);
+    }
+  }
+  EXPECT_EQ(find_scheme("nothing"), nullptr);
+}
