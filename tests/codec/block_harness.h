@@ -74,17 +74,13 @@ class BlockHarness {
     tables_accepted_ = decoder_->begin_frame(reader, tables_written_, encoder_->csb_bits());
   }
 
-  uint32_t measure(const Block& block) const {
-    std::array<uint16_t, kBlockPixels> indices;
-    return encoder_->measure(context(block, indices));
-  }
+  uint32_t measure(const Block& block) const { return encoder_->measure(Seen(*this, block).context); }
   Encoded encode(const Block& block) const {
-    std::array<uint16_t, kBlockPixels> indices;
     Encoded out;
     out.payload.resize(kMaxRawBlockBits / 8);
     out.csb.resize(16);
     BitWriter payload(out.payload), csb(out.csb);
-    encoder_->encode(context(block, indices), payload, csb);
+    encoder_->encode(Seen(*this, block).context, payload, csb);
     payload.flush();
     csb.flush();
     out.payload_bits = static_cast<uint32_t>(payload.bit_count());
@@ -109,17 +105,29 @@ class BlockHarness {
   bool tables_accepted() const { return tables_accepted_; }
 
  private:
-  BlockContext context(const Block& block, std::array<uint16_t, kBlockPixels>& indices) const {
-    for (uint32_t i = 0; i < kBlockPixels; ++i) {
-      const auto at = std::find(ccd_.colors.begin(), ccd_.colors.end(), block.pixels[i]);
-      indices[i] = at == ccd_.colors.end() ? kNotInCcd : static_cast<uint16_t>(at - ccd_.colors.begin());
+  /// What the engine would tell the scheme about a block, found out by plain loops.
+  struct Seen {
+    Seen(const BlockHarness& owner, const Block& block) : context{.block = block} {
+      const auto& colors = owner.ccd_.colors;
+      for (uint32_t i = 0; i < kBlockPixels; ++i) {
+        pixels[i] = block.pixels[kTraversal[i]];
+        const auto at = std::find(colors.begin(), colors.end(), pixels[i]);
+        indices[i] = at == colors.end() ? kNotInCcd : static_cast<uint32_t>(at - colors.begin());
+      }
+      for (uint32_t i = 0; i < kBlockPixels; ++i)
+        largest[i] = *std::max_element(indices.begin() + i / 4 * 4, indices.begin() + i / 4 * 4 + 4);
+      context.pixels = pixels.data();
+      context.uniform = std::count(pixels.begin(), pixels.end(), pixels[0]) == kBlockPixels;
+      if (owner.has_ccd_) {
+        context.ccd_indices = indices.data();
+        context.ccd_largest = largest.data();
+      }
+      context.ras_bits = ras_stream_bits(block.pixels.data(), kBlockSide, owner.format_, false);
+      context.ras_ycocg_bits = ras_stream_bits(block.pixels.data(), kBlockSide, owner.format_, true);
     }
-    BlockContext result{.block = block};
-    result.ccd_indices = has_ccd_ ? indices.data() : nullptr;
-    result.ras_bits = ras_stream_bits(block, format_, false);
-    result.ras_ycocg_bits = ras_stream_bits(block, format_, true);
-    return result;
-  }
+    alignas(64) std::array<uint32_t, kBlockPixels> pixels, indices, largest;
+    BlockContext context;
+  };
   const FormatTraits format_;
   const bool has_ccd_;
   Ccd ccd_;

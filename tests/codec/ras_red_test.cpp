@@ -16,13 +16,17 @@ Block red_ramp() {
 
 const FormatTraits& kRgba = traits(PixelFormat::kRgba8);
 
+uint32_t stream_bits(const Block& block, bool ycocg) {
+  return ras_stream_bits(block.pixels.data(), kBlockSide, kRgba, ycocg);
+}
+
 }  // namespace
 
 TEST(RasStream, ASolidBlockTakes224Bits) {
   // Four first pixels of 8 bits; 4 planes × 16 groups × 3 bits of k = 7.
-  EXPECT_EQ(ras_stream_bits(solid(0x12345678), kRgba, false), 4u * 8 + 4 * 16 * 3);
+  EXPECT_EQ(stream_bits(solid(0x12345678), false), 4u * 8 + 4 * 16 * 3);
   // Co and Cg take 9 bits for the first pixel.
-  EXPECT_EQ(ras_stream_bits(solid(0x12345678), kRgba, true), 8u + 9 + 9 + 8 + 4 * 16 * 3);
+  EXPECT_EQ(stream_bits(solid(0x12345678), true), 8u + 9 + 9 + 8 + 4 * 16 * 3);
   const BlockHarness ras("ras", nullptr);
   EXPECT_EQ(ras.measure(solid(0x12345678)), 512u);
   EXPECT_EQ(ras.encode(solid(0x12345678)).read_csb().get(2), 0u);
@@ -33,7 +37,7 @@ TEST(RasStream, ARampCostsItsFirstRowOnly) {
   // R = x. Row 0 predicts from the left: e = 1, u = 2. Column 0 from above: 0. Elsewhere a = x−1, b = x, c =
   // x−1: c ≤ min(a, b), so max(a, b) = x: 0. Group 0 has u = 2, 0, 0: k = 0 costs 3+1+1 = 5, with its field 8
   // bits. Groups 1 … 3 have 2, 2, 0, 0: 3 + 8 = 11 each. The 12 others, and the other planes, 3 bits a group.
-  EXPECT_EQ(ras_stream_bits(red_ramp(), kRgba, false), 4u * 8 + 8 + 3 * 11 + 12 * 3 + 3 * 16 * 3);
+  EXPECT_EQ(stream_bits(red_ramp(), false), 4u * 8 + 8 + 3 * 11 + 12 * 3 + 3 * 16 * 3);
 }
 
 TEST(RasStream, TheLowestKWinsATie) {
@@ -56,11 +60,11 @@ TEST(RasStream, ResidualsAreFoldedWithoutWrapping) {
   // 35, k = 5 costs 3·6 + 15+6 = 39: 3 + 35 bits instead of 3.
   Block block = solid(0);
   block.pixels[63] = 255;
-  EXPECT_EQ(ras_stream_bits(block, kRgba, false), 224u + 35);
+  EXPECT_EQ(stream_bits(block, false), 224u + 35);
   // The other way round e = −255, u = 509.
   block = solid(255);
   block.pixels[63] = 0;
-  EXPECT_EQ(ras_stream_bits(block, kRgba, false), 224u + 35);
+  EXPECT_EQ(stream_bits(block, false), 224u + 35);
   EXPECT_TRUE(BlockHarness("ras", nullptr).returns(block));
 }
 
