@@ -2,6 +2,8 @@
 #include "interposer/engine/capture.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -26,10 +28,10 @@ std::vector<std::string> command_line() {
   return command;
 }
 
-// Not program_invocation_short_name: programs rename themselves (a retracer takes its trace's name).
+// Asked of the kernel: a retracer takes its trace's name, in program_invocation_name and by a readlink of its own.
 std::string program_name() {
   char path[4096];
-  const ssize_t length = readlink("/proc/self/exe", path, sizeof path);
+  const long length = syscall(SYS_readlinkat, AT_FDCWD, "/proc/self/exe", path, sizeof path);
   std::string name(path, length > 0 ? static_cast<size_t>(length) : 0);
   if (const auto deleted = name.find(" (deleted)"); deleted != std::string::npos) name.resize(deleted);
   name.erase(0, name.rfind('/') + 1);

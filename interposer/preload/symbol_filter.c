@@ -35,14 +35,16 @@ static bool next_is_ours(const void* caller) {
 // The lookup would have found our own export: what would it have found without us?
 static void* look_past_us(void* handle, const char* name, const char* version, const void* caller) {
   void* found = look_up(RTLD_NEXT, name, version);
+  if (found != NULL || handle != RTLD_DEFAULT) return found;
+  // The caller may be a plugin with libraries of its own, which the global scope does not show.
   Dl_info where;
   struct link_map* object = NULL;
-  if (found == NULL && handle == RTLD_DEFAULT &&
-      dladdr1(caller, &where, (void**)&object, RTLD_DL_LINKMAP) != 0) {
-    found = look_up(object, name, version);
-    if (found != NULL) dlerror();  // a success leaves no message behind
+  if (dladdr1(caller, &where, (void**)&object, RTLD_DL_LINKMAP) != 0) found = look_up(object, name, version);
+  if (found != NULL && !tp_is_ours(found)) {
+    dlerror();  // a success leaves no message behind
+    return found;
   }
-  return found != NULL && tp_is_ours(found) ? NULL : found;
+  return look_up(RTLD_NEXT, name, version);  // nothing, and dlerror says so
 }
 
 static struct tp_verdict decide(void* handle, const char* name, const char* version, const void* caller,

@@ -1,0 +1,124 @@
+// Transparency: programs cannot tell that the shim is there, and however they end, their frames are kept.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "shim_process.h"
+
+namespace tilepress::testing {
+namespace {
+
+const std::map<std::string, std::string> kWithout = {{"LD_PRELOAD", ""}};
+
+std::map<std::string, std::string> with_shim() {
+  return {{"LD_PRELOAD", TILEPRESS_PRELOAD}};
+}
+
+TEST(Transparency, LookupsGiveWhatTheyGiveWithoutTheShim) {
+  const ProcessResult without = run_process({TILEPRESS_LOOKUP_PROBE}, kWithout);
+  const ProcessResult with = run_process({TILEPRESS_LOOKUP_PROBE}, with_shim());
+  EXPECT_TRUE(without.exited_with(5));
+  EXPECT_TRUE(with.exited_with(5));
+  EXPECT_NE(without.out.find("egl eglSwapBuffers: found, no error"), std::string::npos) << without.out;
+  // The first library answers 10 + what its own lookup of the next definition finds, which is 2.
+  EXPECT_NE(without.out.find("next of a library: 12"), std::string::npos) << without.out;
+  EXPECT_EQ(with.out, without.out);
+  EXPECT_EQ(with.err, without.err);
+}
+
+TEST(Transparency, ShellsAndToolsRunAsEver) {
+  const std::vector<std::vector<std::string>> commands = {
+      {"sh", "-c", "echo out; echo err >&2; exit 3"},
+      {"ls", "/"},
+      {"ls", "/nonexistent-folder"},
+      {"sh", "-c", "kill -9 $$"},
+      {"bash", "-c", "(exit 4); echo $?; echo a | cat | tr a b"},
+  };
+  for (const auto& command : commands) {
+    const ProcessResult without = run_process(command, kWithout);
+    const ProcessResult with = run_process(command, with_shim());
+    EXPECT_EQ(with.status, without.status) << command.back();
+    EXPECT_EQ(with.out, without.out) << command.back();
+    EXPECT_EQ(with.err, without.err) << command.back();
+  }
+}
+
+TEST(Transparency, AProgramThatPresentsNothingLeavesNoFolder) {
+  ShimTest test;
+  EXPECT_TRUE(test.run({"sh", "-c", "ls / > /dev/null"}).runs.empty());
+  const ShimRun run = test.run({TILEPRESS_EGL_LINKED, "link", "0", "16", "16"});
+  EXPECT_TRUE(run.process.exited_with(0));
+  EXPECT_TRUE(run.runs.empty());
+}
+
+TEST(Transparency, WithoutAnOutputFolderTheShimOnlyForwards) {
+  ShimTest test;
+  const ShimRun run = test.run({TILEPRESS_EGL_LINKED, "link", "3", "16", "16"}, {{"TILEPRESS_OUT", ""}});
+  EXPECT_TRUE(run.process.exited_with(0));
+  EXPECT_EQ(run.process.out, "error after the last swap: 0x3000\n");
+}
+
+TEST(Transparency, AnUnwritableOutputFolderDoesNotHarmTheProgram) {
+  ShimTest test;
+  const ShimRun run =
+      test.run({TILEPRESS_EGL_LINKED, "link", "9", "16", "16"}, {{"TILEPRESS_OUT", "/proc/nowhere"}});
+  EXPECT_TRUE(run.process.exited_with(0));
+  EXPECT_EQ(run.process.out, "error after the last swap: 0x3000\n");
+  EXPECT_EQ(run.process.err, "");
+  EXPECT_NE(run.log.find("tilepress: /proc/nowhere"), std::string::npos) << run.log;
+}
+
+class EndOfProgram : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(EndOfProgram, LosesNoFrameAndKeepsItsStatus) {
+  ShimTest test;
+  const ShimRun run = test.run({TILEPRESS_EGL_OPENED, "local", "20", "32", "24", GetParam()});
+  EXPECT_TRUE(run.process.exited_with(7));
+  ASSERT_EQ(run.runs.size(), 1u);
+  EXPECT_EQ(run.runs[0].frames.size(), 20u);
+  EXPECT_EQ(run.runs[0].json_text("state"), "finished");
+}
+INSTANTIATE_TEST_SUITE_P(Transparency, EndOfProgram,
+                         ::testing::Values("exit", "_exit", "_Exit", "quick_exit"));
+
+TEST(Transparency, AKilledProgramKeepsTheRowsOfItsFinishedFrames) {
+  ShimTest test;
+  const ShimRun run = test.run({TILEPRESS_EGL_OPENED, "local", "200", "64", "64", "kill"});
+  EXPECT_TRUE(run.process.killed_by(SIGKILL));
+  ASSERT_EQ(run.runs.size(), 1u);
+  // The queue holds three frames; all before them are finished.
+  EXPECT_GE(run.runs[0].frames.size(), 197u);
+  for (size_t i = 0; i < run.runs[0].frames.size(); ++i) {
+    EXPECT_EQ(run.runs[0].frames[i].at("frame"), std::to_string(i));
+    EXPECT_EQ(run.runs[0].frames[i].count("top100_coverage"), 1u);
+  }
+  EXPECT_GE(run.runs[0].schemes.size(), 2 * run.runs[0].frames.size());
+}
+
+TEST(Transparency, AForkedChildThatPresentsHasARunOfItsOwn) {
+  for (const char* end : {"fork", "fork-after"}) {
+    ShimTest test;
+    // The driver's own threads do not survive a fork: it must draw in the calling thread.
+    const ShimRun run =
+        test.run({TILEPRESS_EGL_OPENED, "local", "6", "32", "24", end}, {{"LP_NUM_THREADS", "0"}});
+    EXPECT_TRUE(run.process.exited_with(0));
+    ASSERT_EQ(run.runs.size(), 2u) << end;
+    std::vector<size_t> frames = {run.runs[0].frames.size(), run.runs[1].frames.size()};
+    EXPECT_EQ(std::min(frames[0], frames[1]), 6u) << end;
+    EXPECT_EQ(std::max(frames[0], frames[1]), 8u) << end;
+  }
+}
+
+TEST(Transparency, OnlyTheFramesAskedForAreTaken) {
+  ShimTest test;
+  const ShimRun run = test.run({TILEPRESS_EGL_LINKED, "link", "12", "32", "24"},
+                               {{"TILEPRESS_FRAMES", "2-9"}, {"TILEPRESS_EVERY", "3"}});
+  ASSERT_EQ(run.runs.size(), 1u);
+  ASSERT_EQ(run.runs[0].frames.size(), 3u);  // 3, 6 and 9
+  EXPECT_EQ(run.runs[0].frames[0].at("frame"), "3");
+  EXPECT_EQ(run.runs[0].frames[2].at("frame"), "9");
+  EXPECT_EQ(run.runs[0].json_number("seen"), 12);
+  EXPECT_EQ(run.runs[0].json_number("skipped"), 9);
+}
+
+}  // namespace
+}  // namespace tilepress::testing
