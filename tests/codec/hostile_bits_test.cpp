@@ -2,15 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "block_harness.h"
+#include "scheme_texts.h"
 
 using namespace harness;
 
 namespace {
 
-/// Schemes and options that differ in what they read.
-const char* const kSchemes[] = {
-    "dcp",  "dcp:fvc=2",   "adcp", "vdcp",        "vdcp:fvc=1024", "huffdcp",         "huffdcp:fvc=256",
-    "hdcp", "hdcp:fvc=16", "ras",  "ras:ycocg=1", "ras:sizes=2",   "ras:sizes=burst", "red"};
 const PixelFormat kFormats[] = {PixelFormat::kRgba8, PixelFormat::kRgb565, PixelFormat::kRgb10a2};
 
 std::vector<uint8_t> random_bytes(patterns::Dice& dice, size_t size) {
@@ -47,7 +44,7 @@ Block some_block(const Ccd& ccd, PixelFormat format, patterns::Dice& dice) {
 
 TEST(HostileBits, RandomTablesAreTakenOrRefused) {
   patterns::Dice dice(1);
-  for (const char* text : kSchemes)
+  for (const char* text : kSchemeTexts)
     for (const PixelFormat format : kFormats) {
       BlockHarness scheme(text, nullptr, format);
       for (int round = 0; round < 200; ++round) {
@@ -65,7 +62,7 @@ TEST(HostileBits, RandomTablesAreTakenOrRefused) {
 
 TEST(HostileBits, RandomBlocksAreDecodedOrRefused) {
   patterns::Dice dice(2);
-  for (const char* text : kSchemes)
+  for (const char* text : kSchemeTexts)
     for (const PixelFormat format : kFormats) {
       const Ccd ccd = some_dictionary(entries_of(text), format, dice);
       const BlockHarness scheme(text, &ccd, format);
@@ -86,7 +83,7 @@ TEST(HostileBits, RandomBlocksAreDecodedOrRefused) {
 
 TEST(HostileBits, AnAlteredBitGivesAnotherBlockOrNone) {
   patterns::Dice dice(3);
-  for (const char* text : kSchemes) {
+  for (const char* text : kSchemeTexts) {
     const Ccd ccd = some_dictionary(entries_of(text), PixelFormat::kRgba8, dice);
     const BlockHarness scheme(text, &ccd);
     for (int round = 0; round < 100; ++round) {
@@ -103,7 +100,7 @@ TEST(HostileBits, AnAlteredBitGivesAnotherBlockOrNone) {
 
 TEST(HostileBits, EveryTruncationOfABlockIsRefused) {
   patterns::Dice dice(4);
-  for (const char* text : kSchemes) {
+  for (const char* text : kSchemeTexts) {
     const Ccd ccd = some_dictionary(entries_of(text), PixelFormat::kRgba8, dice);
     const BlockHarness scheme(text, &ccd);
     const Encoded whole = scheme.encode(some_block(ccd, PixelFormat::kRgba8, dice));

@@ -1,0 +1,11 @@
+// Scheme texts: one specification for each way in which schemes read and write their bits.
+#pragma once
+
+namespace harness {
+
+inline constexpr const char* kSchemeTexts[] = {
+    "dcp",  "dcp:fvc=2",   "adcp", "vdcp",        "vdcp:fvc=1024", "huffdcp",         "huffdcp:fvc=256",
+    "hdcp", "hdcp:fvc=16", "ras",  "ras:ycocg=1", "ras:sizes=2",   "ras:sizes=burst", "red",
+};
+
+}  // namespace harness
