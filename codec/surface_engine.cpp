@@ -56,14 +56,14 @@ struct Lane {
 struct SurfaceEngine::State {
   std::vector<SchemeSpec> specs;
   ModelOptions options;
-  std::deque<Collector> collectors;  ///< the first is the default configuration, of the frame metrics
+  std::deque<Collector> collectors;  ///< with frame_metrics the first is the default, theirs
   std::vector<Lane> lanes;
   PixelPlane now, before;
   FrameMeter meter;
   BlockCheck check;
   uint64_t ordinal = 0;
   bool needs_ras = false, needs_ras_ycocg = false;
-  std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere
+  std::span<CompressedSurface> surfaces;      ///< where this frame is stored; empty if nowhere
   uint32_t burst_round = 0, burst_shift = 0;  ///< burst_bits is a power of two
 
   void open(const FormatTraits& format);
@@ -88,7 +88,7 @@ Collector& SurfaceEngine::State::collector_for(const FvcConfig& config, const Fo
 void SurfaceEngine::State::open(const FormatTraits& format) {
   burst_round = options.burst_bits - 1;
   burst_shift = static_cast<uint32_t>(std::countr_zero(options.burst_bits));
-  collector_for(FvcConfig{}, format);
+  if (options.frame_metrics) collector_for(FvcConfig{}, format);
   for (const SchemeSpec& spec : specs) {
     const SchemeInfo* info = find_scheme(spec.name);
     assert(info != nullptr);
@@ -203,7 +203,9 @@ void SurfaceEngine::State::end_frame(FrameStatistics& out) {
     scheme.raw_bits = blocks * kBlockPixels * traits(now.format()).pixel_bits;
     scheme.csb_bits = blocks * lanes[i].csb_bits;
   }
-  out.metrics = meter.measure(now, ordinal == 0 ? nullptr : &before, collectors.front().fvc);
+  out.metrics = FrameMetrics{};
+  if (options.frame_metrics)
+    out.metrics = meter.measure(now, ordinal == 0 ? nullptr : &before, collectors.front().fvc);
   for (Collector& collector : collectors) {
     if (!collector.wanted || !collector.collecting) continue;
     collector.ccd.build(collector.fvc);

@@ -13,6 +13,7 @@ constexpr Verb kVerbs[] = {
     {"run", "run a program and capture every frame it presents", verb_run},
     {"frames", "take frames from images or raw files", verb_frames},
     {"info", "tell what recorded traces hold", verb_info},
+    {"bench", "time each scheme beside memcpy and LZ4", verb_bench},
     {"schemes", "list the schemes and their options", verb_schemes},
     {"doctor", "tell what this machine offers and what is missing", verb_doctor},
 };

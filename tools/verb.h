@@ -10,6 +10,7 @@ struct Verb {
   int (*run)(int argc, char** argv);
 };
 
+int verb_bench(int argc, char** argv);
 int verb_doctor(int argc, char** argv);
 int verb_frames(int argc, char** argv);
 int verb_info(int argc, char** argv);

@@ -19,6 +19,7 @@ struct ModelOptions {
   uint32_t tile_side = 32;    ///< render tile, pixels; a multiple of 8, 8..4096
   uint32_t burst_bits = 128;  ///< DRAM transfer unit; a power of two, 16..2048
   bool verify = false;        ///< encode, decode and compare every block of every frame
+  bool frame_metrics = true;  ///< off: FrameStatistics::metrics stays zero
 };
 
 /// State of one surface: the frame before, and one FVC and one CCD per FVC configuration in use.
