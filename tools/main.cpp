@@ -14,6 +14,8 @@ constexpr Verb kVerbs[] = {
     {"frames", "take frames from images or raw files", verb_frames},
     {"info", "tell what recorded traces hold", verb_info},
     {"bench", "time each scheme beside memcpy and LZ4", verb_bench},
+    {"report", "make a page for people from one run or many", verb_report},
+    {"compare", "two runs side by side, with an exit status for regressions", verb_compare},
     {"schemes", "list the schemes and their options", verb_schemes},
     {"doctor", "tell what this machine offers and what is missing", verb_doctor},
 };

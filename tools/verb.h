@@ -11,9 +11,11 @@ struct Verb {
 };
 
 int verb_bench(int argc, char** argv);
+int verb_compare(int argc, char** argv);
 int verb_doctor(int argc, char** argv);
 int verb_frames(int argc, char** argv);
 int verb_info(int argc, char** argv);
+int verb_report(int argc, char** argv);
 int verb_run(int argc, char** argv);
 int verb_schemes(int argc, char** argv);
 

@@ -1,0 +1,152 @@
+// Chart markup: positions along the width are percentages, so the browser scales them; heights and texts are
+// pixels.
+#include "chart_markup.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "html_text.h"
+
+namespace tilepress {
+namespace {
+
+constexpr size_t kColors = 10;
+constexpr size_t kShapes = 7;
+constexpr int kDotRowHeight = 24;
+constexpr int kBarHeight = 16;
+constexpr int kBarMargin = 4;
+constexpr int kScatterHeight = 340;
+
+std::string mark_title(const ChartMark& mark) {
+  return "<title>" + escape_html(mark.title) + "</title>";
+}
+
+std::string grid_lines(const AxisScale& axis, int height) {
+  std::string out;
+  for (const double tick : axis.ticks())
+    out += fmt::format("<line class=\"grid\" x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"0\" y2=\"{1}\"/>",
+                       axis.percent(tick), height);
+  return out;
+}
+
+std::string row_marks(const ChartRow& row, const AxisScale& axis, RowShape shape, int height) {
+  std::string out;
+  double end = 0;
+  int y = kBarMargin;
+  for (const ChartMark& mark : row.marks) {
+    if (std::isnan(mark.value)) continue;
+    const size_t color = mark.color_index % kColors;
+    if (shape == RowShape::kDots) {
+      out += fmt::format("<use href=\"#m{}\" class=\"m c{}\" x=\"{:.2f}%\" y=\"{}\">{}</use>",
+                         mark.color_index % kShapes, color, axis.percent(mark.value), height / 2,
+                         mark_title(mark));
+      continue;
+    }
+    const double from = shape == RowShape::kStack ? end : 0;
+    const double start = axis.percent(from), stop = axis.percent(from + mark.value);
+    out += fmt::format(
+        "<rect class=\"bar c{}\" x=\"{:.3f}%\" width=\"{:.3f}%\" y=\"{}\" height=\"{}\">{}</rect>", color,
+        start, stop - start, y + 2, kBarHeight - 3, mark_title(mark));
+    end = from + mark.value;
+    if (shape == RowShape::kBars) y += kBarHeight;
+  }
+  return out;
+}
+
+std::string axis_row(const AxisScale& axis) {
+  std::string out = "<svg class=\"axis\" height=\"18\" aria-hidden=\"true\">";
+  for (const double tick : axis.ticks())
+    out += fmt::format("<text x=\"{:.2f}%\" y=\"13\" text-anchor=\"middle\">{}</text>", axis.percent(tick),
+                       AxisScale::tick_text(tick));
+  return out + "</svg>\n";
+}
+
+}  // namespace
+
+std::string marker_definitions() {
+  static constexpr const char* kPaths[kShapes] = {
+      "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0z",                              // circle
+      "M-4.5 -4.5h9v9h-9z",                                                 // square
+      "M0 -6l6 6l-6 6l-6 -6z",                                              // diamond
+      "M0 -5.5l5.5 9.5h-11z",                                               // triangle up
+      "M0 5.5l5.5 -9.5h-11z",                                               // triangle down
+      "M-6 -2h4v-4h4v4h4v4h-4v4h-4v-4h-4z",                                 // plus
+      "M-5 -5h3l2 3l2 -3h3v3l-3 2l3 2v3h-3l-2 -3l-2 3h-3v-3l3 -2l-3 -2z"};  // cross
+  std::string out;
+  for (size_t i = 0; i < kShapes; ++i) out += fmt::format("<path id=\"m{}\" d=\"{}\"/>", i, kPaths[i]);
+  return out;
+}
+
+std::string chart_key(const std::vector<KeyEntry>& entries) {
+  std::string out = "<ul class=\"key\">";
+  for (const KeyEntry& entry : entries)
+    out += fmt::format(
+        "<li><svg aria-hidden=\"true\" viewBox=\"-7 -7 14 14\"><use href=\"#m{}\" class=\"m "
+        "c{}\"/></svg>{}</li>",
+        entry.color_index % kShapes, entry.color_index % kColors, escape_html(entry.label));
+  return out + "</ul>\n";
+}
+
+std::string row_chart(const std::vector<ChartRow>& rows, const AxisScale& axis, RowShape shape,
+                      std::string_view unit, std::string_view described) {
+  std::string out =
+      fmt::format("<div class=\"rows\" role=\"img\" aria-label=\"{}\">\n", escape_html(described));
+  std::string group;
+  for (const ChartRow& row : rows) {
+    if (row.group != group) out += "<div class=\"group\">" + escape_html(row.group) + "</div>\n";
+    group = row.group;
+    const int height = shape == RowShape::kBars
+                           ? static_cast<int>(row.marks.size()) * kBarHeight + 2 * kBarMargin
+                           : kDotRowHeight;
+    out += fmt::format("<div class=\"label\" title=\"{0}\">{0}</div>", escape_html(row.label));
+    out += fmt::format("<svg class=\"plot\" height=\"{}\">{}", height, grid_lines(axis, height));
+    out += row_marks(row, axis, shape, height);
+    if (shape == RowShape::kBars) {
+      int y = kBarMargin;
+      for (const ChartMark& mark : row.marks) {
+        // The value stands right of the bar, or inside its end where the bar leaves no room.
+        const double at = std::isnan(mark.value) ? 0 : axis.percent(mark.value);
+        out += fmt::format("<text class=\"value\" x=\"{:.2f}%\" dx=\"4\" y=\"{}\">{}</text>", at,
+                           y + kBarHeight - 3, shown_number(mark.value));
+        y += kBarHeight;
+      }
+    }
+    out += "</svg>\n";
+  }
+  out += axis_row(axis);
+  return out + "<div class=\"unit\">" + escape_html(unit) + (axis.logarithmic() ? ", logarithmic" : "") +
+         "</div></div>\n";
+}
+
+std::string scatter_chart(const std::vector<ScatterPoint>& points, const AxisScale& x_axis,
+                          const AxisScale& y_axis, std::string_view x_unit, std::string_view y_unit,
+                          double x_mark, std::string_view described) {
+  const auto y_pixel = [&](double value) { return kScatterHeight * (1 - y_axis.percent(value) / 100); };
+  std::string out =
+      fmt::format("<div class=\"scatter\" role=\"img\" aria-label=\"{}\">\n", escape_html(described));
+  out += fmt::format("<div class=\"y-unit\">{}{}</div>", escape_html(y_unit),
+                     y_axis.logarithmic() ? ", logarithmic" : "");
+  out += fmt::format("<svg height=\"{}\" aria-hidden=\"true\">", kScatterHeight);
+  for (const double tick : y_axis.ticks())
+    out += fmt::format("<text x=\"100%\" dx=\"-6\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>",
+                       y_pixel(tick) + 4, AxisScale::tick_text(tick));
+  out += fmt::format("</svg>\n<svg height=\"{}\">{}", kScatterHeight, grid_lines(x_axis, kScatterHeight));
+  for (const double tick : y_axis.ticks())
+    out += fmt::format("<line class=\"grid\" x1=\"0\" x2=\"100%\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/>",
+                       y_pixel(tick));
+  out += fmt::format("<rect class=\"frame\" width=\"100%\" height=\"{}\"/>", kScatterHeight);
+  if (!std::isnan(x_mark))
+    out += fmt::format("<line class=\"threshold\" x1=\"{0:.2f}%\" x2=\"{0:.2f}%\" y1=\"0\" y2=\"{1}\"/>",
+                       x_axis.percent(x_mark), kScatterHeight);
+  for (const ScatterPoint& point : points)
+    out +=
+        fmt::format("<use href=\"#m{}\" class=\"m c{}\" x=\"{:.2f}%\" y=\"{:.1f}\"><title>{}</title></use>",
+                    point.color_index % kShapes, point.color_index % kColors, x_axis.percent(point.x),
+                    y_pixel(point.y), escape_html(point.title));
+  out += "</svg>\n<div></div><div></div><div>" + axis_row(x_axis) + "</div>";
+  return out + "<div class=\"x-unit\">" + escape_html(x_unit) + "</div></div>\n";
+}
+
+}  // namespace tilepress

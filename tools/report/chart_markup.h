@@ -1,0 +1,52 @@
+// Chart markup: dot, bar and scatter charts as HTML and SVG that fit any width, need no script and print as
+// they are.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "axis_scale.h"
+
+namespace tilepress {
+
+/// One mark of a row: a dot, or a bar from the end of the bar before it.
+struct ChartMark {
+  double value = 0;
+  size_t color_index = 0;  ///< colour and marker shape
+  std::string title;       ///< what a pointer sees
+};
+
+struct ChartRow {
+  std::string label;
+  std::string group;  ///< a new heading is written where this changes
+  std::vector<ChartMark> marks;
+};
+
+struct KeyEntry {
+  std::string label;
+  size_t color_index = 0;
+};
+
+enum class RowShape { kDots, kBars, kStack };
+
+/// Definitions of the marker shapes, for the page's <defs>.
+std::string marker_definitions();
+std::string chart_key(const std::vector<KeyEntry>& entries);
+
+/// Rows one below the other on one horizontal axis. kBars draws a thin bar with its value for each mark,
+/// kStack puts a row's marks end to end. `described` is the text alternative.
+std::string row_chart(const std::vector<ChartRow>& rows, const AxisScale& axis, RowShape shape,
+                      std::string_view unit, std::string_view described);
+
+struct ScatterPoint {
+  double x = 0, y = 0;
+  size_t color_index = 0;
+  std::string title;
+};
+/// `x_mark`: a dashed vertical line there; NaN = none.
+std::string scatter_chart(const std::vector<ScatterPoint>& points, const AxisScale& x_axis,
+                          const AxisScale& y_axis, std::string_view x_unit, std::string_view y_unit,
+                          double x_mark, std::string_view described);
+
+}  // namespace tilepress

@@ -1,0 +1,94 @@
+// Page parts: order of the batch and the markup around charts and tables.
+#include "page_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace tilepress {
+namespace {
+
+std::string lower(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+/// The paper's order, then all others by name, unnamed last.
+std::pair<int, std::string> category_order(const std::string& category) {
+  const std::string name = lower(category);
+  if (name == "ui") return {0, name};
+  if (name == "2d") return {1, name};
+  if (name == "3d") return {2, name};
+  return {name.empty() ? 4 : 3, name};
+}
+
+}  // namespace
+
+std::vector<double> Batch::rates(const std::string& category, const std::string& scheme,
+                                 bool with_bursts) const {
+  std::vector<double> out;
+  for (const RunSummary& run : runs) {
+    if (run.category != category) continue;
+    const double rate = with_bursts ? run.rate(scheme) : run.rate_payload(scheme);
+    if (!std::isnan(rate)) out.push_back(rate);
+  }
+  return out;
+}
+
+void arrange_batch(Batch& batch) {
+  for (const RunSummary& run : batch.runs)
+    for (const std::string& scheme : run.schemes)
+      if (std::find(batch.schemes.begin(), batch.schemes.end(), scheme) == batch.schemes.end())
+        batch.schemes.push_back(scheme);
+  if (!batch.schemes.empty()) batch.baseline = batch.schemes.front();
+  for (const std::string& scheme : batch.schemes)
+    if (scheme == "dcp") batch.baseline = scheme;
+
+  std::stable_sort(batch.runs.begin(), batch.runs.end(), [&](const RunSummary& a, const RunSummary& b) {
+    const auto key = [&](const RunSummary& run) {
+      const double rate = run.rate_payload(batch.baseline);
+      return std::tuple(category_order(run.category), std::isnan(rate) ? INFINITY : rate);
+    };
+    return key(a) < key(b);
+  });
+  for (const RunSummary& run : batch.runs)
+    if (batch.categories.empty() || batch.categories.back() != run.category)
+      batch.categories.push_back(run.category);
+
+  for (RunSummary& run : batch.runs)
+    for (SurfacePlots& surface : run.surfaces)
+      for (LinePlot& plot : surface.plots)
+        for (PlotLine& line : plot.lines) {
+          const auto scheme = std::find(batch.schemes.begin(), batch.schemes.end(), line.name);
+          if (scheme != batch.schemes.end())
+            line.color_index = static_cast<size_t>(scheme - batch.schemes.begin());
+        }
+}
+
+std::string category_label(const std::string& category) {
+  return category.empty() ? "no category" : category;
+}
+
+std::string scheme_family(const std::string& scheme) {
+  return scheme.substr(0, scheme.find(':'));
+}
+
+std::string section_html(const Section& section) {
+  std::string out =
+      fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", section.id, escape_html(section.heading));
+  if (!section.note.empty()) out += "<p class=\"note\">" + section.note + "</p>\n";
+  if (!section.chart.empty()) out += "<div class=\"chart\">\n" + section.chart + "</div>\n";
+  const std::string button = csv_button(section.table.id, section.id + ".csv");
+  if (section.chart.empty() || section.table_open) {
+    out += table_html(section.table) + "<div class=\"tools\">" + button + "</div>\n";
+  } else {
+    out += "<div class=\"tools\">" + button + "</div>\n<details><summary>The same as a table</summary>\n" +
+           table_html(section.table) + "</details>\n";
+  }
+  return out + "</section>\n";
+}
+
+}  // namespace tilepress

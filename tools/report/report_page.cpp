@@ -1,0 +1,88 @@
+// Report page: puts sections, series and assets into the template.
+#include "report_page.h"
+
+#include <fmt/format.h>
+
+#include "page_assets.h"
+
+namespace tilepress {
+namespace {
+
+std::string series_json(const Batch& batch) {
+  std::string out = "[";
+  for (const RunSummary& run : batch.runs) {
+    out +=
+        fmt::format("{}\n{{\"name\":\"{}\",\"surfaces\":[", out.size() > 1 ? "," : "", escape_json(run.name));
+    bool first = true;
+    for (const SurfacePlots& surface : run.surfaces) {
+      if (surface.plots.empty()) continue;
+      out += fmt::format("{}{{\"label\":\"{}\",\"plots\":[", first ? "" : ",", escape_json(surface.label));
+      first = false;
+      for (size_t i = 0; i < surface.plots.size(); ++i) {
+        out += i > 0 ? "," : "";
+        out += line_plot_json(surface.plots[i]);
+      }
+      out += "]}";
+    }
+    out += "]}";
+  }
+  return out + "]";
+}
+
+std::string lead_text(const Batch& batch) {
+  uint64_t frames = 0, measured = 0;
+  for (const RunSummary& run : batch.runs) {
+    frames += run.frames;
+    measured += run.measured;
+  }
+  return fmt::format(
+      "{} run{}, {} frames, {} of them measured, {} scheme{}. Framebuffer compression of captured frames in "
+      "8×8 blocks; rate = raw "
+      "bits / moved bits, higher is better.",
+      batch.runs.size(), batch.runs.size() == 1 ? "" : "s", frames, measured, batch.schemes.size(),
+      batch.schemes.size() == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string report_page(const Batch& batch, const std::string& title) {
+  std::string nav, sections;
+  std::vector<Section> all = batch_sections(batch);
+  const std::vector<Section> schemes = scheme_sections(batch);
+  // The means come right after the list of workloads: they are what most readers look for.
+  all.insert(all.begin() + 1, schemes.begin(), schemes.end());
+  const auto add_runs = [&] {
+    nav += "<a href=\"#runs\">Run by run</a>\n";
+    sections += run_parts(batch);
+  };
+  // Of a single run its frames matter most; of a batch, how the runs compare.
+  const bool single = batch.runs.size() == 1;
+  for (const Section& section : all) {
+    nav += fmt::format("<a href=\"#{}\">{}</a>\n", section.id, escape_html(section.heading));
+    sections += section_html(section);
+    if (single && &section == &all.front()) add_runs();
+  }
+  if (!single) add_runs();
+  const std::string footer = fmt::format(
+      "<p>Made by tilepress {} from frames.csv, schemes.csv and run.json of the runs named above. A value in "
+      "a table is a cell of those files, a sum of "
+      "such cells, or follows from them by the formula beside it; the CSV downloads have full precision. "
+      "Line charts use uPlot 1.6.32 (MIT "
+      "licence, text in the page's source).</p>",
+      TILEPRESS_VERSION);
+  return fill_slots(kPageTemplate, {{"version", TILEPRESS_VERSION},
+                                    {"title", escape_html(title)},
+                                    {"lead", escape_html(lead_text(batch))},
+                                    {"uplot_style", std::string(kUplotStyle)},
+                                    {"uplot_script", std::string(kUplotScript)},
+                                    {"uplot_licence", std::string(kUplotLicence)},
+                                    {"style", std::string(kPageStyle)},
+                                    {"script", std::string(kPageScript)},
+                                    {"markers", marker_definitions()},
+                                    {"nav", nav},
+                                    {"sections", sections},
+                                    {"series", series_json(batch)},
+                                    {"footer", footer}});
+}
+
+}  // namespace tilepress

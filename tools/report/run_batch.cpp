@@ -1,0 +1,83 @@
+// Run batch: the folder walk and the workload names.
+#include "run_batch.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+namespace tilepress {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_run(const fs::path& path) {
+  std::error_code code;
+  return fs::exists(path / "frames.csv", code) || fs::exists(path / "schemes.csv", code);
+}
+
+void collect(const fs::path& path, std::vector<std::string>& out) {
+  if (is_run(path)) {
+    out.push_back(path.string());
+    return;
+  }
+  std::vector<fs::path> folders;
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(path, code))
+    if (entry.is_directory(code) && !entry.is_symlink(code)) folders.push_back(entry.path());
+  std::sort(folders.begin(), folders.end());
+  for (const fs::path& folder : folders) collect(folder, out);
+}
+
+/// The folder's name without the "-<pid>" that `run` puts behind a program's name.
+std::string plain_name(const std::string& folder) {
+  const size_t dash = folder.find_last_of('-');
+  const bool process = dash != std::string::npos && dash > 0 && dash + 1 < folder.size() &&
+                       folder.find_first_not_of("0123456789", dash + 1) == std::string::npos;
+  return process ? folder.substr(0, dash) : folder;
+}
+
+std::string folder_name(const std::string& path) {
+  fs::path full = fs::absolute(path).lexically_normal();
+  if (!full.has_filename()) full = full.parent_path();
+  return full.filename().string();
+}
+
+}  // namespace
+
+std::vector<BatchEntry> find_runs(const std::vector<std::string>& paths, std::string& error) {
+  std::vector<std::string> found;
+  for (const std::string& path : paths) {
+    std::error_code code;
+    if (!fs::is_directory(path, code)) {
+      error = path + (fs::exists(path, code) ? ": not a run directory" : ": no such folder");
+      return {};
+    }
+    const size_t before = found.size();
+    collect(path, found);
+    if (found.size() == before) {
+      error = path + ": holds no run (no frames.csv in it or below)";
+      return {};
+    }
+  }
+  std::map<std::string, size_t> plain_count, folder_count;
+  for (const std::string& path : found) {
+    ++plain_count[plain_name(folder_name(path))];
+    ++folder_count[folder_name(path)];
+  }
+  std::vector<BatchEntry> entries;
+  for (const std::string& path : found) {
+    const std::string folder = folder_name(path), plain = plain_name(folder);
+    if (plain_count[plain] == 1)
+      entries.push_back({path, plain});
+    else
+      entries.push_back({path, folder_count[folder] == 1 ? folder : path});
+  }
+  return entries;
+}
+
+std::string workload_category(const RunRecord& run) {
+  for (const auto& [name, value] : run.info.further)
+    if (name == "category") return value;
+  return "";
+}
+
+}  // namespace tilepress

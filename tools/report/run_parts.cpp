@@ -1,0 +1,55 @@
+// Run parts: facts, totals and line charts of each run.
+#include <fmt/format.h>
+
+#include "page_parts.h"
+
+namespace tilepress {
+namespace {
+
+Table totals_table(const RunSummary& run, size_t index) {
+  Table table;
+  table.id = fmt::format("table-run-{}", index);
+  table.caption = fmt::format("Sums over {} measured frames; the warm-up frames are left out", run.measured);
+  table.header = {"scheme",   "blocks",       "raw_bits",     "payload_bits", "bursts",
+                  "csb_bits", "palette_bits", "rate_payload", "rate"};
+  for (size_t i = 0; i < run.schemes.size(); ++i) {
+    const SchemeStatistics& sum = run.totals[i];
+    table.rows.push_back({text_cell(run.schemes[i]), count_cell(sum.blocks), count_cell(sum.raw_bits),
+                          count_cell(sum.payload_bits), count_cell(sum.bursts), count_cell(sum.csb_bits),
+                          count_cell(sum.palette_bits), number_cell(run.rate_payload(run.schemes[i])),
+                          number_cell(run.rate(run.schemes[i]))});
+  }
+  return table;
+}
+
+}  // namespace
+
+std::string run_parts(const Batch& batch) {
+  std::string out = "<section id=\"runs\">\n<h2>Run by run</h2>\n";
+  if (batch.runs.size() > 1) {
+    out += "<label class=\"pick\">Run <select id=\"run-pick\">";
+    for (size_t i = 0; i < batch.runs.size(); ++i)
+      out += fmt::format("<option value=\"{}\">{}</option>", i, escape_html(batch.runs[i].name));
+    out += "</select></label>\n";
+  }
+  out +=
+      "<noscript><p class=\"warn\">The line charts need JavaScript; everything else on this page does "
+      "not.</p></noscript>\n";
+  for (size_t i = 0; i < batch.runs.size(); ++i) {
+    const RunSummary& run = batch.runs[i];
+    out += fmt::format("<section class=\"run\" id=\"run-{}\">\n<h3>{}</h3>\n<dl class=\"facts\">\n", i,
+                       escape_html(run.name));
+    for (const auto& [name, value] : run.facts)
+      out += "<dt>" + escape_html(name) + "</dt><dd>" + escape_html(value) + "</dd>\n";
+    out += "</dl>\n";
+    const Table table = totals_table(run, i);
+    out += table_html(table) + "<div class=\"tools\">" +
+           csv_button(table.id, file_slug(run.name) + "-totals.csv") + "</div>\n";
+    if (run.measured == 0)
+      out += "<p class=\"warn\">No frame of this run was measured: there is nothing to draw.</p>\n";
+    out += "<div class=\"line-charts\"></div>\n</section>\n";
+  }
+  return out + "</section>\n";
+}
+
+}  // namespace tilepress
