@@ -13,6 +13,17 @@ constexpr uint32_t sub_block_pixel(uint32_t sub, uint32_t i) {
   return kTraversal[sub * kSubBlockPixels + i];
 }
 
+/// `count` pixels, an even number.
+inline void write_raw_pixels(const uint32_t* pixels, uint32_t count, uint32_t pixel_bits, BitWriter& out) {
+  for (uint32_t i = 0; i < count; i += 2) {
+    const uint64_t pair = uint64_t{pixels[i]} << pixel_bits | pixels[i + 1];
+    if (pixel_bits == 32)
+      out.put64(pair);
+    else
+      out.put(pair, 2 * pixel_bits);
+  }
+}
+
 inline void write_raw_sub_block(const Block& block, uint32_t sub, uint32_t pixel_bits, BitWriter& out) {
   for (uint32_t i = 0; i < kSubBlockPixels; ++i) out.put(block.pixels[sub_block_pixel(sub, i)], pixel_bits);
 }

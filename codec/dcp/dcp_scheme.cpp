@@ -38,7 +38,7 @@ class DcpEncoder : public DcpFamilyEncoder {
       const bool compressed = active() && fits(block, sub);
       if (!off_) csb.put(compressed, 1);
       if (!compressed) {
-        write_raw_sub_block(block.block, sub, pixel_bits_, payload);
+        write_raw_pixels(block.pixels + sub * kSubBlockPixels, kSubBlockPixels, pixel_bits_, payload);
         continue;
       }
       for (uint32_t i = 0; i < kSubBlockPixels; ++i)

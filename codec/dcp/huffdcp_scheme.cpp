@@ -46,7 +46,7 @@ class HuffDcpEncoder final : public DcpFamilyEncoder {
       const bool compressed = active() && sub_block_bits(block, sub) < raw_sub_block_bits();
       if (!off_) csb.put(compressed, 1);
       if (!compressed) {
-        write_raw_sub_block(block.block, sub, pixel_bits_, payload);
+        write_raw_pixels(block.pixels + sub * kSubBlockPixels, kSubBlockPixels, pixel_bits_, payload);
         continue;
       }
       for (uint32_t i = 0; i < kSubBlockPixels; ++i) {

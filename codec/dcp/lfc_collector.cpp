@@ -155,17 +155,6 @@ void LfcCollector::see_run(uint32_t color, uint32_t count) {
   settle_tail();
 }
 
-uint64_t LfcCollector::find_members(const uint32_t* pixels, uint32_t* places) const {
-  uint64_t mask = kernels().members(pixels, table_, outside(), places);
-  for (uint32_t i = 0; i < crowded_; ++i)
-    for (uint32_t lane = 0; lane < kLanes; ++lane)
-      if (pixels[lane] == crowded_colors_[i]) {
-        mask |= uint64_t{1} << lane;
-        places[lane] = crowded_place(i);
-      }
-  return mask;
-}
-
 void LfcCollector::see_block(const uint32_t* pixels) {
   uint32_t places[kLanes];
   uint32_t from = 0;  // pixels before are counted
@@ -174,7 +163,8 @@ void LfcCollector::see_block(const uint32_t* pixels) {
   };
   samples_ += kLanes;
   while (from < kLanes) {
-    uint64_t misses = ~find_members(pixels, places) & ~uint64_t{0} << from;
+    uint64_t misses =
+        ~kernels().members(pixels, table_, crowded_colors_.data(), crowded_, places) & ~uint64_t{0} << from;
     bool changed = false;
     for (; misses != 0 && !changed; misses &= misses - 1) {
       const auto lane = static_cast<uint32_t>(std::countr_zero(misses));

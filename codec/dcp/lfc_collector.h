@@ -44,13 +44,11 @@ class LfcCollector {
   bool full() const { return used_ == entries_; }
   uint32_t place_of(uint32_t color) const;
   uint32_t count_at(uint32_t place) const;
-  uint32_t& first_count_at(uint32_t place) { return counts_[place]; }
   void add_member(uint32_t slot, uint32_t color, uint32_t count);
   void remove_member(uint32_t slot);
   void rehash();
   void fill_slot(uint32_t color, uint32_t count);
   bool settle_tail();
-  uint64_t find_members(const uint32_t* pixels, uint32_t* places) const;
 
   const uint32_t entries_;
   uint32_t used_ = 0;  ///< slots filled

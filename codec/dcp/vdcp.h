@@ -24,31 +24,42 @@ inline uint32_t vdcp_measure(const BlockContext& block, uint32_t pixel_bits) {
   return kernels().width_sum(block.ccd_largest, kNotInCcd, pixel_bits);
 }
 
-/// Writes a block: per sub-block `csb_width` CSB bits holding the width, or `raw_mark` for a raw one.
+/// Writes a block: per sub-block `csb_width` ≤ 5 CSB bits holding the width, or `raw_mark` for a raw one.
 /// `look_up` = false: all raw.
 inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t pixel_bits, uint32_t csb_width,
                         uint32_t raw_mark, BitWriter& payload, BitWriter& csb) {
+  if (block.uniform && look_up && block.ccd_largest[0] == 0) {  // sixteen times width 0: nothing to write
+    csb.put(0, 8 * csb_width);
+    csb.put(0, 8 * csb_width);
+    return;
+  }
+  uint64_t marks = 0;  // of eight sub-blocks
   for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
     const uint32_t at = sub * kSubBlockPixels;
     const uint32_t largest = look_up ? block.ccd_largest[at] : kNotInCcd;
-    if (largest == kNotInCcd) {
-      csb.put(raw_mark, csb_width);
-      for (uint32_t i = 0; i < kSubBlockPixels; ++i) payload.put(block.pixels[at + i], pixel_bits);
-      continue;
-    }
     const uint32_t width = vdcp_width(largest);
-    csb.put(width, csb_width);
-    uint64_t indices = 0;  // four of at most 10 bits
-    for (uint32_t i = 0; i < kSubBlockPixels; ++i) indices = indices << width | block.ccd_indices[at + i];
-    payload.put(indices, kSubBlockPixels * width);
+    marks = marks << csb_width | (largest == kNotInCcd ? raw_mark : width);
+    if (sub % 8 == 7) {
+      csb.put(marks, 8 * csb_width);
+      marks = 0;
+    }
+    if (largest == kNotInCcd) {
+      write_raw_pixels(block.pixels + at, kSubBlockPixels, pixel_bits, payload);
+    } else if (width != 0) {
+      uint64_t indices = 0;  // four of at most 10 bits
+      for (uint32_t i = 0; i < kSubBlockPixels; ++i) indices = indices << width | block.ccd_indices[at + i];
+      payload.put(indices, kSubBlockPixels * width);
+    }
   }
 }
 
 /// Reads one sub-block whose CSB holds `width` ≤ 10 (not the raw mark). False: an index beyond the rCCD.
 inline bool vdcp_decode_sub_block(const Rccd& rccd, uint32_t width, uint32_t sub, BitReader& payload,
                                   Block& out) {
+  const uint64_t indices = payload.get(kSubBlockPixels * width);
+  const uint64_t mask = (uint64_t{1} << width) - 1;
   for (uint32_t i = 0; i < kSubBlockPixels; ++i) {
-    const uint64_t index = payload.get(width);
+    const uint64_t index = indices >> (3 - i) * width & mask;
     if (index >= rccd.colors.size()) return false;
     out.pixels[sub_block_pixel(sub, i)] = rccd.colors[index];
   }

@@ -28,8 +28,10 @@ struct Kernels {
   /// Number of lanes with largest[i] < limit.
   uint32_t (*count_below)(const uint32_t* largest, uint32_t limit);
 
-  /// Bit i of the result: pixels[i] is in the table. buckets[i] = its bucket; `outside` for the others.
-  uint64_t (*members)(const uint32_t* pixels, const ProbeTable& table, uint32_t outside, uint32_t* buckets);
+  /// Bit i of the result: pixels[i] is in the table or one of the `crowded` colours. places[i] = its bucket,
+  /// or table size + 1 + its number among the crowded; table size for the others.
+  uint64_t (*members)(const uint32_t* pixels, const ProbeTable& table, const uint32_t* crowded_colors,
+                      uint32_t crowded, uint32_t* places);
 
   /// Bits of the Golomb-Rice codes of four planes with their group headers, without the first pixels.
   /// samples: rows of 40 values, row -1 to 7; see ras_samples.h.

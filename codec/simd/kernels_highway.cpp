@@ -83,19 +83,24 @@ uint32_t CountBelow(const uint32_t* HWY_RESTRICT largest, uint32_t limit) {
   return count;
 }
 
-uint64_t Members(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table, uint32_t outside,
-                 uint32_t* HWY_RESTRICT buckets) {
+uint64_t Members(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table,
+                 const uint32_t* HWY_RESTRICT crowded_colors, uint32_t crowded,
+                 uint32_t* HWY_RESTRICT places) {
   const Words d;
   const hn::RebindToSigned<Words> di;
-  const auto none = hn::Set(d, outside), multiplier = hn::Set(d, table.multiplier);
+  const uint32_t size = table.size();
+  const auto outside = hn::Set(d, size), multiplier = hn::Set(d, table.multiplier);
   uint64_t mask = 0;
   for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
     const auto color = hn::LoadU(d, pixels + i);
     const auto at = hn::ShiftRightSame(hn::Mul(color, multiplier), static_cast<int>(table.shift));
-    const auto in = hn::Eq(hn::GatherIndex(d, table.colors.data(), hn::BitCast(di, at)), color);
-    hn::StoreU(hn::IfThenElse(in, at, none), d, buckets + i);
+    const auto key = hn::GatherIndex(d, table.colors.data(), hn::BitCast(di, at));
+    auto place = hn::IfThenElse(hn::Eq(key, color), at, outside);
+    for (uint32_t c = 0; c < crowded; ++c)
+      place = hn::IfThenElse(hn::Eq(color, hn::Set(d, crowded_colors[c])), hn::Set(d, size + 1 + c), place);
+    hn::StoreU(place, d, places + i);
     uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, in, bits);
+    hn::StoreMaskBits(d, hn::Ne(place, outside), bits);
     uint64_t lanes;
     __builtin_memcpy(&lanes, bits, 8);
     mask |= lanes << i;

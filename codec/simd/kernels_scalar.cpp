@@ -40,13 +40,15 @@ uint32_t count_below(const uint32_t* largest, uint32_t limit) {
       std::count_if(largest, largest + kLanes, [&](uint32_t v) { return v < limit; }));
 }
 
-uint64_t members(const uint32_t* pixels, const ProbeTable& table, uint32_t outside, uint32_t* buckets) {
+uint64_t members(const uint32_t* pixels, const ProbeTable& table, const uint32_t* crowded_colors,
+                 uint32_t crowded, uint32_t* places) {
   uint64_t mask = 0;
   for (uint32_t i = 0; i < kLanes; ++i) {
-    const uint32_t at = table.bucket(pixels[i]);
-    const bool in = table.colors[at] == pixels[i];
-    buckets[i] = in ? at : outside;
-    mask |= uint64_t{in} << i;
+    const uint32_t bucket = table.bucket(pixels[i]);
+    places[i] = table.colors[bucket] == pixels[i] ? bucket : table.size();
+    for (uint32_t c = 0; c < crowded; ++c)
+      if (pixels[i] == crowded_colors[c]) places[i] = table.size() + 1 + c;
+    mask |= uint64_t{places[i] != table.size()} << i;
   }
   return mask;
 }

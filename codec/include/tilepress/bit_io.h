@@ -1,6 +1,7 @@
 // Bit writer and reader: most significant bit first, bounded buffers, never past the end.
 #pragma once
 
+#include <bit>
 #include <cassert>
 #include <cstdint>
 #include <cstring>
@@ -8,8 +9,16 @@
 
 namespace tilepress {
 
-/// Most bits of one put() or get(): one call must fit beside the up to 7 bits left in the 64-bit accumulator.
+/// Most bits of one put() or get(): a get() must fit into the 64 bits read at a byte boundary, beside up to 7
+/// bits before it.
 constexpr uint32_t kMaxBitsPerCall = 57;
+
+namespace bit_io {
+constexpr uint64_t big_endian(uint64_t word) {
+  if constexpr (std::endian::native == std::endian::little) return __builtin_bswap64(word);
+  return word;
+}
+}  // namespace bit_io
 
 /// Writes bits into a buffer the caller owns. Bits that do not fit are counted and lost: check overflowed().
 class BitWriter {
@@ -19,14 +28,21 @@ class BitWriter {
   /// Appends the low `count` bits of `value`, highest first. count ≤ kMaxBitsPerCall; higher bits of value
   /// are 0.
   void put(uint64_t value, uint32_t count) {
-    assert(count <= kMaxBitsPerCall && (count == 64 || value >> count == 0));
-    accumulator_ = (accumulator_ << count) | value;
-    pending_ += count;
-    bit_count_ += count;
-    while (pending_ >= 8) {
-      pending_ -= 8;
-      store(static_cast<uint8_t>(accumulator_ >> pending_));
+    assert(count <= kMaxBitsPerCall && value >> count == 0);
+    const uint32_t free = 64 - pending_;  // 1..64
+    if (count < free) {
+      accumulator_ |= value << (free - 1 - count) << 1;  // in two steps: free - count may be 64
+      pending_ += count;
+      return;
     }
+    store(accumulator_ | value >> (count - free));
+    pending_ = count - free;
+    accumulator_ = pending_ == 0 ? 0 : value << (64 - pending_);
+  }
+  /// Appends all 64 bits of `value`.
+  void put64(uint64_t value) {
+    store(accumulator_ | value >> pending_);
+    accumulator_ = pending_ == 0 ? 0 : value << (64 - pending_);
   }
   /// Appends `count` one-bits followed by a zero-bit.
   void put_unary(uint32_t count) {
@@ -35,26 +51,33 @@ class BitWriter {
   }
   /// Appends zero-bits until `bits` are written in all.
   void pad_to(uint64_t bits) {
-    while (bit_count_ < bits) put(0, static_cast<uint32_t>(bits - bit_count_ < 32 ? bits - bit_count_ : 32));
+    for (uint64_t now = bit_count(); now < bits; now = bit_count())
+      put(0, static_cast<uint32_t>(bits - now < 32 ? bits - now : 32));
   }
-  /// Writes out the bits of the last, partial byte, zero-filled. Call once, after the last put().
+  /// Writes out what is still held back, the last byte zero-filled; up to seven bytes behind it, within the
+  /// buffer, may become zero. Call once, after the last put().
   void flush() {
-    if (pending_ > 0) store(static_cast<uint8_t>(accumulator_ << (8 - pending_)));
-    pending_ = 0;
+    if (pending_ > 0) store(accumulator_);
+    if (pending_ > 0) position_ -= 8;
   }
-  uint64_t bit_count() const { return bit_count_; }
-  bool overflowed() const { return (bit_count_ + 7) / 8 > buffer_.size(); }
+  uint64_t bit_count() const { return uint64_t{position_} * 8 + pending_; }
+  bool overflowed() const { return (bit_count() + 7) / 8 > buffer_.size(); }
 
  private:
-  void store(uint8_t byte) {
-    if (position_ < buffer_.size()) buffer_[position_] = byte;
-    ++position_;
+  void store(uint64_t word) {
+    if (position_ + 8 <= buffer_.size()) {
+      const uint64_t bytes = bit_io::big_endian(word);
+      std::memcpy(&buffer_[position_], &bytes, 8);
+    } else {
+      for (uint32_t i = 0; i < 8 && position_ + i < buffer_.size(); ++i)
+        buffer_[position_ + i] = static_cast<uint8_t>(word >> (56 - 8 * i));
+    }
+    position_ += 8;
   }
   std::span<uint8_t> buffer_;
-  size_t position_ = 0;
-  uint64_t accumulator_ = 0;
-  uint32_t pending_ = 0;
-  uint64_t bit_count_ = 0;
+  size_t position_ = 0;       ///< bytes stored, or lost
+  uint64_t accumulator_ = 0;  ///< bits not stored yet, from the top
+  uint32_t pending_ = 0;      ///< their number, 0..63
 };
 
 /// Reads what BitWriter wrote. Past the end it returns zero-bits and remembers: check overran().
@@ -67,36 +90,49 @@ class BitReader {
   /// Next `count` bits, highest first. count ≤ kMaxBitsPerCall.
   uint64_t get(uint32_t count) {
     assert(count <= kMaxBitsPerCall);
-    uint64_t value = 0;
-    uint32_t left = count;
-    while (left > 0) {
-      const uint32_t in_byte = static_cast<uint32_t>(position_ & 7);
-      const uint32_t take = left < 8 - in_byte ? left : 8 - in_byte;
-      uint32_t bits = 0;
-      if (position_ < end_) bits = (buffer_[position_ >> 3] >> (8 - in_byte - take)) & ((1u << take) - 1);
-      if (position_ + take > end_ && position_ < end_) {  // the end lies inside the byte
-        const uint32_t beyond = static_cast<uint32_t>(position_ + take - end_);
-        bits = bits >> beyond << beyond;
-      }
-      value = (value << take) | bits;
-      position_ += take;
-      left -= take;
-    }
-    return value;
+    const uint64_t window = peek();
+    position_ += count;
+    return count == 0 ? 0 : window >> (64 - count);
   }
-  /// Number of one-bits before the next zero-bit, which is consumed; gives up and returns limit + 1 past
-  /// `limit`.
+  /// Number of one-bits before the next zero-bit, which is consumed; gives up and returns more than `limit`
+  /// past that many.
   uint32_t get_unary(uint32_t limit) {
     uint32_t count = 0;
-    while (get(1) != 0)
-      if (++count > limit) return count;
-    return count;
+    for (;;) {
+      const auto ones =
+          static_cast<uint32_t>(std::countl_one(peek() | 0x7F));  // 57 bits are sure to be there
+      if (ones < kMaxBitsPerCall) {
+        position_ += ones + 1;
+        return count + ones;
+      }
+      position_ += kMaxBitsPerCall;
+      count += kMaxBitsPerCall;
+      if (count > limit) return count;
+    }
   }
   void skip(uint64_t count) { position_ += count; }
   uint64_t position() const { return position_; }
   bool overran() const { return position_ > end_; }
 
  private:
+  /// The bits from here on, at the top of the word: at least 57 of them, zeros past the end.
+  uint64_t peek() const {
+    const uint64_t byte = position_ >> 3;
+    uint64_t word = 0;
+    if (byte + 8 <= buffer_.size()) {
+      std::memcpy(&word, &buffer_[byte], 8);
+      word = bit_io::big_endian(word);
+    } else {
+      for (uint32_t i = 0; i < 8 && byte + i < buffer_.size(); ++i)
+        word |= uint64_t{buffer_[byte + i]} << (56 - 8 * i);
+    }
+    word <<= position_ & 7;
+    if (position_ + 64 > end_) {
+      if (position_ >= end_) return 0;
+      word &= ~uint64_t{0} << (64 - (end_ - position_));
+    }
+    return word;
+  }
   std::span<const uint8_t> buffer_;
   uint64_t end_;
   uint64_t position_ = 0;
