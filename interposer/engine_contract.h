@@ -7,7 +7,7 @@
 extern "C" {
 #endif
 
-enum { TILEPRESS_ENGINE_VERSION = 1 };
+enum { TILEPRESS_ENGINE_VERSION = 2 };
 
 enum TilepressApi { TILEPRESS_EGL, TILEPRESS_GLX };
 
@@ -30,6 +30,10 @@ struct TilepressEngine {
   int (*begin)(struct TilepressPresent* present);
   // The presenting call has returned; `presented` = it succeeded. Calls neither GL nor EGL.
   void (*end)(struct TilepressPresent* present, int presented);
+  // The program is about to destroy contexts of `display`: ours on it go first.
+  void (*contexts_going)(uint32_t api, void *display);
+  // The program is about to destroy an EGL surface: one that is made later with the same handle is another.
+  void (*surface_going)(void *display, uintptr_t surface);
   // The process is about to end: every frame taken is written out. May be called more than once.
   void (*finish)(void);
 };

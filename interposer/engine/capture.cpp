@@ -28,7 +28,8 @@ std::vector<std::string> command_line() {
   return command;
 }
 
-// Asked of the kernel: a retracer takes its trace's name, in program_invocation_name and by a readlink of its own.
+// Asked of the kernel: a retracer takes its trace's name, in program_invocation_name and by a readlink of its
+// own.
 std::string program_name() {
   char path[4096];
   const long length = syscall(SYS_readlinkat, AT_FDCWD, "/proc/self/exe", path, sizeof path);
@@ -57,7 +58,7 @@ PresentSource* Capture::source_of(const TilepressPresent& present) {
   auto source = present.api == TILEPRESS_EGL ? make_egl_source(host_, present.real)
                                              : make_glx_source(host_, present.real);
   if (source == nullptr) log_->write(LogLevel::kError, "the GL library lacks functions to read frames back");
-  sources_.push_back({present.real, std::move(source)});
+  sources_.push_back({present.real, present.api, std::move(source)});
   return sources_.back().source.get();
 }
 
@@ -99,6 +100,7 @@ Capture::Outcome Capture::take(TilepressPresent& present, PresentSource& source,
   }
   const SurfaceRegistry::Turn turn = registry_.turn(key, shape);
   window = turn.window;
+  if (turn.forgotten) worker(source)->queue().submit_end_of(*turn.forgotten);
   if (!options_.takes(turn.frame)) return Outcome::kSkipped;
   if (!shape.format || !traits(*shape.format).modelled ||
       std::max(shape.width, shape.height) > kMaxSurfaceSide) {
@@ -168,6 +170,18 @@ void Capture::end(TilepressPresent& present, bool presented) {
       break;
   }
   queue.wake();
+}
+
+void Capture::contexts_going(uint32_t api, void* display) {
+  std::lock_guard lock(mutex_);
+  for (const Source& known : sources_)
+    if (known.api == api && known.source != nullptr) known.source->release(display);
+}
+
+void Capture::surface_going(void* display, uintptr_t surface) {
+  const auto window = registry_.forget({display, surface});
+  CaptureWorker* known = worker_;
+  if (window && known != nullptr) known->queue().submit_end_of(*window);
 }
 
 void Capture::finish() {

@@ -24,12 +24,15 @@ class Capture {
   /// As TilepressEngine.begin and end.
   bool begin(TilepressPresent& present);
   void end(TilepressPresent& present, bool presented);
+  void contexts_going(uint32_t api, void* display);
+  void surface_going(void* display, uintptr_t surface);
   void finish();
 
  private:
   enum class Outcome : uintptr_t { kTaken = 1, kSkipped, kDropped, kUnsupported, kNotCaptured };
   struct Source {
     void* real;
+    uint32_t api;
     std::unique_ptr<PresentSource> source;  ///< null: cannot be read
   };
   PresentSource* source_of(const TilepressPresent& present);

@@ -52,10 +52,12 @@ void CaptureWorker::run() {
   try {
     while (!queue_.closed_and_empty()) {
       CapturedFrame* frame = queue_.next();
-      if (!writer_.is_open() && alive() && (frame != nullptr || counts_.seen > 0) && !create_directory())
-        give_up(writer_.error());
+      if (!writer_.is_open() && alive() && counts_.seen > 0 && !create_directory()) give_up(writer_.error());
       if (frame != nullptr) {
-        if (alive()) process(*frame);
+        if (frame->last_of_window)
+          surfaces_.erase(frame->window);
+        else if (alive())
+          process(*frame);
         queue_.done(frame);
       }
       if (writer_.is_open()) publish_counts();

@@ -11,10 +11,11 @@ namespace tilepress {
 
 /// Owns its pixels; the memory is kept when the frame is used again.
 struct CapturedFrame {
-  uint32_t window = 0;   ///< which of the program's surfaces, whatever its size
-  uint32_t surface = 0;  ///< surface number in the statistics: a window at one size and format
-  uint64_t frame = 0;    ///< number of the frame within its surface
-  uint64_t time_ns = 0;  ///< since the run began
+  bool last_of_window = false;  ///< no pixels: the window is gone, and so may be what is kept for it
+  uint32_t window = 0;          ///< which of the program's surfaces, whatever its size
+  uint32_t surface = 0;         ///< surface number in the statistics: a window at one size and format
+  uint64_t frame = 0;           ///< number of the frame within its surface
+  uint64_t time_ns = 0;         ///< since the run began
   uint64_t readback_ns = 0;
   SurfaceView view;  ///< lies in `pixels`
 

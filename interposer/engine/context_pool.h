@@ -2,14 +2,15 @@
 // time.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <mutex>
 #include <vector>
 
 namespace tilepress {
 
-/// Contexts that are current on no thread. Never destroys one: at the end of a process GL must not be called,
-/// and before it the contexts are in use.
+/// Contexts that are current on no thread. None is destroyed at the end of a process, where GL must not be
+/// called.
 class ContextPool {
  public:
   struct Key {
@@ -20,18 +21,27 @@ class ContextPool {
   /// A free context for `key`, which is the caller's until give(); null if there is none.
   void* take(const Key& key) {
     std::lock_guard lock(mutex_);
-    for (Entry& entry : entries_)
-      if (entry.key == key) {
-        void* context = entry.context;
-        entry = entries_.back();
-        entries_.pop_back();
-        return context;
-      }
-    return nullptr;
+    const auto found =
+        std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.key == key; });
+    if (found == entries_.end()) return nullptr;
+    void* context = found->context;
+    entries_.erase(found);
+    return context;
   }
   void give(const Key& key, void* context) {
     std::lock_guard lock(mutex_);
     entries_.push_back({key, context});
+  }
+  /// Takes out all free contexts of `display`.
+  std::vector<void*> take_all(const void* display) {
+    std::lock_guard lock(mutex_);
+    std::vector<void*> taken;
+    std::erase_if(entries_, [&](const Entry& entry) {
+      if (entry.key.display != display) return false;
+      taken.push_back(entry.context);
+      return true;
+    });
+    return taken;
   }
 
  private:

@@ -4,6 +4,7 @@
 
 #include "interposer/engine/context_pool.h"
 #include "interposer/engine/gl_readback.h"
+#include "interposer/engine/in_context_readback.h"
 #include "interposer/engine/library_symbols.h"
 #include "interposer/engine/present_source.h"
 
@@ -14,6 +15,7 @@ struct EglFunctions {
   decltype(&eglBindAPI) BindAPI = nullptr;
   decltype(&eglChooseConfig) ChooseConfig = nullptr;
   decltype(&eglCreateContext) CreateContext = nullptr;
+  decltype(&eglDestroyContext) DestroyContext = nullptr;
   decltype(&eglGetConfigAttrib) GetConfigAttrib = nullptr;
   decltype(&eglGetCurrentContext) GetCurrentContext = nullptr;
   decltype(&eglGetCurrentDisplay) GetCurrentDisplay = nullptr;
@@ -29,8 +31,8 @@ struct EglFunctions {
       return function != nullptr;
     };
     return fill(BindAPI, "eglBindAPI") && fill(ChooseConfig, "eglChooseConfig") &&
-           fill(CreateContext, "eglCreateContext") && fill(GetConfigAttrib, "eglGetConfigAttrib") &&
-           fill(GetCurrentContext, "eglGetCurrentContext") &&
+           fill(CreateContext, "eglCreateContext") && fill(DestroyContext, "eglDestroyContext") &&
+           fill(GetConfigAttrib, "eglGetConfigAttrib") && fill(GetCurrentContext, "eglGetCurrentContext") &&
            fill(GetCurrentDisplay, "eglGetCurrentDisplay") &&
            fill(GetCurrentSurface, "eglGetCurrentSurface") && fill(GetProcAddress, "eglGetProcAddress") &&
            fill(MakeCurrent, "eglMakeCurrent") && fill(QueryAPI, "eglQueryAPI") &&
@@ -63,29 +65,21 @@ class EglSource final : public PresentSource {
 
   bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
             std::string& reason) override {
-    const auto surface = reinterpret_cast<EGLSurface>(present.surface);
-    const EGLContext context = egl_.GetCurrentContext();
-    const EGLSurface draw = egl_.GetCurrentSurface(EGL_DRAW), read = egl_.GetCurrentSurface(EGL_READ);
-    EGLConfig config = nullptr;
-    config_of(present, config);
-    const ContextPool::Key key{present.display, reinterpret_cast<uintptr_t>(config)};
-    EGLContext own = pool_.take(key);
-    bool bound = own != EGL_NO_CONTEXT && egl_.MakeCurrent(present.display, surface, surface, own);
-    if (!bound) {
-      // None yet, or one that died with an eglTerminate of the program.
-      own = create(present.display, config);
-      if (own == EGL_NO_CONTEXT) return fail(reason, "no private context");
-      bound = egl_.MakeCurrent(present.display, surface, surface, own);
+    switch (in_program_context_only() ? Attempt::kNotBound : read_privately(present, shape, frame, reason)) {
+      case Attempt::kRead:
+        return true;
+      case Attempt::kContextLost:
+        return false;
+      default:
+        break;
     }
-    GLenum error = 0;
-    const bool taken = bound && read_back_buffer(gl_, shape, frame, error);
-    if (bound && !egl_.MakeCurrent(present.display, draw, read, context)) {
-      reason = "the program's context could not be made current again";
-      return false;
-    }
-    pool_.give(key, own);
-    if (!taken) reason = bound ? "glReadPixels failed" : "the private context cannot be made current";
-    return taken;
+    if (read_in_program_context(gl_, shape, is_double_buffered(present), frame)) return true;
+    if (reason.empty()) reason = "the program's context cannot be read";
+    return false;
+  }
+
+  void release(void* display) override {
+    for (void* own : pool_.take_all(display)) egl_.DestroyContext(display, own);
   }
 
   GlStrings strings() const override {
@@ -101,6 +95,40 @@ class EglSource final : public PresentSource {
   static bool fail(std::string& reason, const char* text) {
     reason = text;
     return false;
+  }
+
+  enum class Attempt { kRead, kNotBound, kContextLost };
+
+  Attempt read_privately(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
+                         std::string& reason) {
+    const auto surface = reinterpret_cast<EGLSurface>(present.surface);
+    const EGLContext context = egl_.GetCurrentContext();
+    const EGLSurface draw = egl_.GetCurrentSurface(EGL_DRAW), read = egl_.GetCurrentSurface(EGL_READ);
+    EGLConfig config = nullptr;
+    config_of(present, config);
+    const ContextPool::Key key{present.display, reinterpret_cast<uintptr_t>(config)};
+    EGLContext own = pool_.take(key);
+    bool bound = own != EGL_NO_CONTEXT && egl_.MakeCurrent(present.display, surface, surface, own);
+    if (!bound) {
+      own = create(present.display, config);
+      bound = own != EGL_NO_CONTEXT && egl_.MakeCurrent(present.display, surface, surface, own);
+    }
+    GLenum error = 0;
+    const bool taken = bound && read_back_buffer(gl_, shape, frame, error);
+    if (bound && !egl_.MakeCurrent(present.display, draw, read, context)) {
+      reason = "the program's context could not be made current again";
+      return Attempt::kContextLost;
+    }
+    if (own != EGL_NO_CONTEXT) pool_.give(key, own);
+    if (!taken) reason = bound ? "glReadPixels failed" : "the private context cannot be made current";
+    return taken ? Attempt::kRead : Attempt::kNotBound;
+  }
+
+  bool is_double_buffered(const TilepressPresent& present) const {
+    EGLint buffer = EGL_BACK_BUFFER;
+    egl_.QuerySurface(present.display, reinterpret_cast<EGLSurface>(present.surface), EGL_RENDER_BUFFER,
+                      &buffer);
+    return buffer == EGL_BACK_BUFFER;
   }
 
   bool config_of(const TilepressPresent& present, EGLConfig& config) const {

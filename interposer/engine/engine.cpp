@@ -38,11 +38,29 @@ void end(TilepressPresent* present, int presented) {
   }
 }
 
-void finish() {
+// Of this process, if it has captured anything.
+Capture* known_capture() {
   Capture* known = current.load(std::memory_order_acquire);
-  if (known == nullptr || known->pid() != getpid()) return;
+  return known != nullptr && known->pid() == getpid() ? known : nullptr;
+}
+
+void contexts_going(uint32_t api, void* display) {
   try {
-    known->finish();
+    if (Capture* known = known_capture()) known->contexts_going(api, display);
+  } catch (...) {
+  }
+}
+
+void surface_going(void* display, uintptr_t surface) {
+  try {
+    if (Capture* known = known_capture()) known->surface_going(display, surface);
+  } catch (...) {
+  }
+}
+
+void finish() {
+  try {
+    if (Capture* known = known_capture()) known->finish();
   } catch (...) {
   }
 }
@@ -52,7 +70,8 @@ __attribute__((destructor)) void at_library_end() {
   finish();
 }
 
-constexpr TilepressEngine kEngine = {TILEPRESS_ENGINE_VERSION, begin, end, finish};
+constexpr TilepressEngine kEngine = {TILEPRESS_ENGINE_VERSION, begin,         end,
+                                     contexts_going,           surface_going, finish};
 
 }  // namespace
 }  // namespace tilepress

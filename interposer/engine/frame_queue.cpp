@@ -19,10 +19,27 @@ CapturedFrame* FrameQueue::acquire(bool wait) {
   std::unique_lock lock(mutex_);
   if (wait) changed_.wait(lock, [&] { return pending_ < depth_ || closed_; });
   if (pending_ >= depth_ || closed_) return nullptr;
-  if (free_.empty()) return new CapturedFrame;
-  CapturedFrame* frame = free_.back().release();
+  return any_free().release();
+}
+
+std::unique_ptr<CapturedFrame> FrameQueue::any_free() {
+  if (free_.empty()) return std::make_unique<CapturedFrame>();
+  std::unique_ptr<CapturedFrame> frame = std::move(free_.back());
   free_.pop_back();
+  frame->last_of_window = false;
   return frame;
+}
+
+void FrameQueue::submit_end_of(uint32_t window) {
+  {
+    std::lock_guard lock(mutex_);
+    std::unique_ptr<CapturedFrame> frame = any_free();
+    frame->window = window;
+    frame->last_of_window = true;
+    ready_.push_back(std::move(frame));
+    ++pending_;
+  }
+  changed_.notify_all();
 }
 
 void FrameQueue::submit(CapturedFrame* frame) {

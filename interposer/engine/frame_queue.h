@@ -21,9 +21,10 @@ class FrameQueue {
   /// A frame to fill. When `depth` frames are pending: waits if `wait`, else returns null. Null also after
   /// close().
   CapturedFrame* acquire(bool wait);
-  void submit(CapturedFrame* frame);   ///< filled and presented
-  void release(CapturedFrame* frame);  ///< back unused, or done with
-  void wake();                         ///< makes next() return
+  void submit(CapturedFrame* frame);    ///< filled and presented
+  void submit_end_of(uint32_t window);  ///< the window presents no more; never waits
+  void release(CapturedFrame* frame);   ///< back unused, or done with
+  void wake();                          ///< makes next() return
 
   /// The worker's side: the next frame, or null after wake() or once closed and empty.
   CapturedFrame* next();
@@ -37,6 +38,7 @@ class FrameQueue {
  private:
   const uint32_t depth_;
   std::timed_mutex mutex_;
+  std::unique_ptr<CapturedFrame> any_free();
   std::condition_variable_any changed_;
   std::vector<std::unique_ptr<CapturedFrame>> free_;
   std::deque<std::unique_ptr<CapturedFrame>> ready_;

@@ -9,6 +9,8 @@ bool GlFunctions::load(const Lookup& look_up) {
     return function != nullptr;
   };
   fill(ReadBuffer, "glReadBuffer");
+  fill(BindFramebuffer, "glBindFramebuffer");
+  fill(BindBuffer, "glBindBuffer");
   return fill(GetString, "glGetString") && fill(GetIntegerv, "glGetIntegerv") &&
          fill(GetError, "glGetError") && fill(PixelStorei, "glPixelStorei") &&
          fill(ReadPixels, "glReadPixels");

@@ -7,13 +7,15 @@
 
 namespace tilepress {
 
-/// All pointers are set, or the table is not usable.
+/// Pointers without a remark are set, or the table is not usable.
 struct GlFunctions {
   const GLubyte* (*GetString)(GLenum) = nullptr;
   void (*GetIntegerv)(GLenum, GLint*) = nullptr;
   GLenum (*GetError)() = nullptr;
   void (*PixelStorei)(GLenum, GLint) = nullptr;
-  void (*ReadBuffer)(GLenum) = nullptr;  ///< null in OpenGL ES 2
+  void (*ReadBuffer)(GLenum) = nullptr;               ///< null in OpenGL ES 2
+  void (*BindFramebuffer)(GLenum, GLuint) = nullptr;  ///< may be null
+  void (*BindBuffer)(GLenum, GLuint) = nullptr;       ///< may be null
   void (*ReadPixels)(GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void*) = nullptr;
 
   using Lookup = std::function<void*(const char*)>;

@@ -3,17 +3,23 @@
 #include <GL/glxext.h>
 
 #include "interposer/engine/context_pool.h"
+#include "interposer/engine/display_ends.h"
 #include "interposer/engine/drawable_size.h"
+
 #include "interposer/engine/gl_readback.h"
+#include "interposer/engine/in_context_readback.h"
 #include "interposer/engine/library_symbols.h"
 #include "interposer/engine/present_source.h"
 
 namespace tilepress {
 namespace {
 
+using CloseHook = int (*)(Display*, XExtCodes*);
+
 struct GlxFunctions {
   decltype(&glXChooseFBConfig) ChooseFBConfig = nullptr;
   decltype(&glXCreateNewContext) CreateNewContext = nullptr;
+  decltype(&glXDestroyContext) DestroyContext = nullptr;
   decltype(&glXGetCurrentContext) GetCurrentContext = nullptr;
   decltype(&glXGetCurrentDisplay) GetCurrentDisplay = nullptr;
   decltype(&glXGetCurrentDrawable) GetCurrentDrawable = nullptr;
@@ -25,6 +31,8 @@ struct GlxFunctions {
   decltype(&glXQueryContext) QueryContext = nullptr;
   decltype(&glXQueryDrawable) QueryDrawable = nullptr;
   decltype(&XFree) Free = nullptr;
+  decltype(&XAddExtension) AddExtension = nullptr;
+  CloseHook (*SetCloseDisplay)(Display*, int, CloseHook) = nullptr;
 
   bool load(const LibrarySymbols& library) {
     const auto fill = [&](auto& function, const char* name) {
@@ -32,21 +40,24 @@ struct GlxFunctions {
       return function != nullptr;
     };
     return fill(ChooseFBConfig, "glXChooseFBConfig") && fill(CreateNewContext, "glXCreateNewContext") &&
-           fill(GetCurrentContext, "glXGetCurrentContext") &&
+           fill(DestroyContext, "glXDestroyContext") && fill(GetCurrentContext, "glXGetCurrentContext") &&
            fill(GetCurrentDisplay, "glXGetCurrentDisplay") &&
            fill(GetCurrentDrawable, "glXGetCurrentDrawable") &&
            fill(GetCurrentReadDrawable, "glXGetCurrentReadDrawable") &&
            fill(GetFBConfigAttrib, "glXGetFBConfigAttrib") &&
            fill(GetProcAddressARB, "glXGetProcAddressARB") && fill(IsDirect, "glXIsDirect") &&
            fill(MakeContextCurrent, "glXMakeContextCurrent") && fill(QueryContext, "glXQueryContext") &&
-           fill(QueryDrawable, "glXQueryDrawable") && fill(Free, "XFree");
+           fill(QueryDrawable, "glXQueryDrawable") && fill(Free, "XFree") &&
+           fill(AddExtension, "XAddExtension") && fill(SetCloseDisplay, "XESetCloseDisplay");
   }
 };
 
 class GlxSource final : public PresentSource {
  public:
   GlxSource(const GlxFunctions& glx, const GlFunctions& gl, DrawableSize size)
-      : glx_(glx), gl_(gl), size_(std::move(size)) {}
+      : glx_(glx), gl_(gl), size_(std::move(size)) {
+    DisplayEnds::instance().add(&pool_);
+  }
 
   bool describe(const TilepressPresent& present, WindowKey& key, SurfaceShape& shape,
                 std::string& reason) override {
@@ -69,23 +80,24 @@ class GlxSource final : public PresentSource {
 
   bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
             std::string& reason) override {
-    const GLXContext context = glx_.GetCurrentContext();
-    const GLXDrawable draw = glx_.GetCurrentDrawable(), read = glx_.GetCurrentReadDrawable();
+    switch (in_program_context_only() ? Attempt::kNotBound : read_privately(present, shape, frame, reason)) {
+      case Attempt::kRead:
+        return true;
+      case Attempt::kContextLost:
+        return false;
+      default:
+        break;
+    }
     Display* display = glx_.GetCurrentDisplay();
-    const GLXFBConfig config = current_config(display);
-    const ContextPool::Key key{display, reinterpret_cast<uintptr_t>(config)};
-    auto own = static_cast<GLXContext>(pool_.take(key));
-    if (own == nullptr)
-      own = glx_.CreateNewContext(display, config, GLX_RGBA_TYPE, nullptr, glx_.IsDirect(display, context));
-    if (own == nullptr) return fail(reason, "no private context");
-    const bool bound = glx_.MakeContextCurrent(display, present.surface, present.surface, own);
-    GLenum error = 0;
-    const bool taken = bound && read_back_buffer(gl_, shape, frame, error);
-    if (bound && !glx_.MakeContextCurrent(display, draw, read, context))
-      return fail(reason, "the program's context could not be made current again");
-    pool_.give(key, own);
-    if (!taken) reason = bound ? "glReadPixels failed" : "the private context cannot be made current";
-    return taken;
+    const bool double_buffered = attribute(display, current_config(display), GLX_DOUBLEBUFFER) != 0;
+    if (read_in_program_context(gl_, shape, double_buffered, frame)) return true;
+    if (reason.empty()) reason = "the program's context cannot be read";
+    return false;
+  }
+
+  void release(void* display) override {
+    for (void* own : pool_.take_all(display))
+      glx_.DestroyContext(static_cast<Display*>(display), static_cast<GLXContext>(own));
   }
 
   GlStrings strings() const override {
@@ -101,6 +113,38 @@ class GlxSource final : public PresentSource {
   static bool fail(std::string& reason, const char* text) {
     reason = text;
     return false;
+  }
+
+  enum class Attempt { kRead, kNotBound, kContextLost };
+
+  Attempt read_privately(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
+                         std::string& reason) {
+    const GLXContext context = glx_.GetCurrentContext();
+    const GLXDrawable draw = glx_.GetCurrentDrawable(), read = glx_.GetCurrentReadDrawable();
+    Display* display = glx_.GetCurrentDisplay();
+    const GLXFBConfig config = current_config(display);
+    const ContextPool::Key key{display, reinterpret_cast<uintptr_t>(config)};
+    watch_end_of(display);
+    auto own = static_cast<GLXContext>(pool_.take(key));
+    if (own == nullptr)
+      own = glx_.CreateNewContext(display, config, GLX_RGBA_TYPE, nullptr, glx_.IsDirect(display, context));
+    const bool bound =
+        own != nullptr && glx_.MakeContextCurrent(display, present.surface, present.surface, own);
+    GLenum error = 0;
+    const bool taken = bound && read_back_buffer(gl_, shape, frame, error);
+    if (bound && !glx_.MakeContextCurrent(display, draw, read, context)) {
+      reason = "the program's context could not be made current again";
+      return Attempt::kContextLost;
+    }
+    if (own != nullptr) pool_.give(key, own);
+    if (!taken) reason = bound ? "glReadPixels failed" : "the private context cannot be made current";
+    return taken ? Attempt::kRead : Attempt::kNotBound;
+  }
+
+  void watch_end_of(Display* display) const {
+    if (!DisplayEnds::instance().watch(display)) return;
+    XExtCodes* codes = glx_.AddExtension(display);
+    if (codes != nullptr) glx_.SetCloseDisplay(display, codes->extension, DisplayEnds::on_close);
   }
 
   /// The config of the current context. Config handles live as long as the display.

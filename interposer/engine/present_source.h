@@ -27,6 +27,8 @@ class PresentSource {
   /// Reads the back buffer in a private context and makes the program's context current again.
   virtual bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
                     std::string& reason) = 0;
+  /// Destroys the contexts kept for `display`, which the program is about to tear down. The API must match.
+  virtual void release(void* display) = 0;
   /// Of the program's own context, which is current.
   virtual GlStrings strings() const = 0;
   virtual const char* api() const = 0;

@@ -7,19 +7,41 @@ namespace tilepress {
 
 SurfaceRegistry::Turn SurfaceRegistry::turn(const WindowKey& key, const SurfaceShape& shape) {
   std::lock_guard lock(mutex_);
+  std::optional<uint32_t> forgotten;
   auto window = std::find_if(windows_.begin(), windows_.end(), [&](const Window& w) { return w.key == key; });
   if (window == windows_.end()) {
-    windows_.push_back({key, shape, surface_count_++, 0});
+    if (windows_.size() >= kMaxWindows) {
+      const auto oldest =
+          std::min_element(windows_.begin(), windows_.end(),
+                           [](const Window& a, const Window& b) { return a.last_turn < b.last_turn; });
+      forgotten = oldest->number;
+      windows_.erase(oldest);
+    }
+    windows_.push_back({key, shape, window_count_++, surface_count_++, 0, 0});
     window = windows_.end() - 1;
   } else if (window->shape != shape) {
-    *window = {key, shape, surface_count_++, 0};
+    window->shape = shape;
+    window->surface = surface_count_++;
+    window->frames = 0;
   }
-  return {static_cast<uint32_t>(window - windows_.begin()), window->surface, window->frames};
+  window->last_turn = ++turns_;
+  return {window->number, window->surface, window->frames, forgotten};
 }
 
-void SurfaceRegistry::presented(uint32_t window) {
+void SurfaceRegistry::presented(uint32_t number) {
   std::lock_guard lock(mutex_);
-  ++windows_[window].frames;
+  for (Window& window : windows_)
+    if (window.number == number) ++window.frames;
+}
+
+std::optional<uint32_t> SurfaceRegistry::forget(const WindowKey& key) {
+  std::lock_guard lock(mutex_);
+  const auto window =
+      std::find_if(windows_.begin(), windows_.end(), [&](const Window& w) { return w.key == key; });
+  if (window == windows_.end()) return std::nullopt;
+  const uint32_t number = window->number;
+  windows_.erase(window);
+  return number;
 }
 
 bool SurfaceRegistry::first_report(uint32_t surface) {

@@ -28,14 +28,21 @@ struct SurfaceShape {
 /// either, its next frame is frame 0 of a new surface.
 class SurfaceRegistry {
  public:
+  /// Windows known at a time: of an X window nobody tells us when it ends, so the one that has not presented
+  /// for the longest time is forgotten.
+  static constexpr size_t kMaxWindows = 64;
+
   struct Turn {
     uint32_t window, surface;
     uint64_t frame;
+    std::optional<uint32_t> forgotten;  ///< a window that had to make room
   };
   /// The numbers the next frame of the window bears; asking changes nothing but the shape. Thread-safe.
   Turn turn(const WindowKey& key, const SurfaceShape& shape);
   /// The window has presented the frame that turn() numbered.
   void presented(uint32_t window);
+  /// The window is gone: what presents under its handle later is another. Its number, if it was known.
+  std::optional<uint32_t> forget(const WindowKey& key);
   /// True the first time it is asked for `surface`: a thing to be said once.
   bool first_report(uint32_t surface);
 
@@ -43,13 +50,16 @@ class SurfaceRegistry {
   struct Window {
     WindowKey key;
     SurfaceShape shape;
+    uint32_t number;
     uint32_t surface;
     uint64_t frames;
+    uint64_t last_turn;
   };
   std::mutex mutex_;
   std::vector<Window> windows_;
   std::vector<uint32_t> reported_;
-  uint32_t surface_count_ = 0;
+  uint32_t window_count_ = 0, surface_count_ = 0;
+  uint64_t turns_ = 0;
 };
 
 }  // namespace tilepress

@@ -11,12 +11,24 @@
 #include "real_dlsym.h"
 #include "session_file.h"
 
+// clang-format off
 const char* const tp_entry_names[TP_ENTRY_COUNT] = {
-    "eglGetProcAddress",           "eglPostSubBufferNV",          "eglSwapBuffers",
-    "eglSwapBuffersWithDamageEXT", "eglSwapBuffersWithDamageKHR", "glXCopySubBufferMESA",
-    "glXGetProcAddress",           "glXGetProcAddressARB",        "glXSwapBuffers",
+    "eglDestroyContext",
+    "eglDestroySurface",
+    "eglGetProcAddress",
+    "eglPostSubBufferNV",
+    "eglSwapBuffers",
+    "eglSwapBuffersWithDamageEXT",
+    "eglSwapBuffersWithDamageKHR",
+    "eglTerminate",
+    "glXCopySubBufferMESA",
+    "glXDestroyContext",
+    "glXGetProcAddress",
+    "glXGetProcAddressARB",
+    "glXSwapBuffers",
     "glXSwapBuffersMscOML",
 };
+// clang-format on
 
 void* tp_bound[TP_ENTRY_COUNT][TP_BANK_SIZE];
 

@@ -39,6 +39,8 @@ static void* linked(enum tp_entry entry, void* caller) {
 #define BANK(name) \
   { name##_0, name##_1, name##_2, name##_3, name##_4, name##_5, name##_6, name##_7 }
 
+#define DISPLAY (tp_display display)
+#define CONTEXT (tp_display display, tp_context context)
 #define SURFACE (tp_display display, tp_egl_surface surface)
 #define SURFACE_DAMAGE \
   (tp_display display, tp_egl_surface surface, const tp_egl_int* rectangles, tp_egl_int count)
@@ -56,6 +58,13 @@ ENTRY_POINT(void*, glXGetProcAddress, TP_GLX_GET_PROC_ADDRESS, tp_on_get_proc_ad
             name)
 ENTRY_POINT(void*, glXGetProcAddressARB, TP_GLX_GET_PROC_ADDRESS_ARB, tp_on_get_proc_address,
             (const char* name), name)
+ENTRY_POINT(tp_egl_boolean, eglDestroyContext, TP_EGL_DESTROY_CONTEXT, tp_on_egl_destroy_context, CONTEXT,
+            display, context)
+ENTRY_POINT(tp_egl_boolean, eglDestroySurface, TP_EGL_DESTROY_SURFACE, tp_on_egl_destroy_surface, SURFACE,
+            display, surface)
+ENTRY_POINT(tp_egl_boolean, eglTerminate, TP_EGL_TERMINATE, tp_on_egl_terminate, DISPLAY, display)
+ENTRY_POINT(void, glXDestroyContext, TP_GLX_DESTROY_CONTEXT, tp_on_glx_destroy_context, CONTEXT, display,
+            context)
 ENTRY_POINT(tp_egl_boolean, eglSwapBuffers, TP_EGL_SWAP_BUFFERS, tp_on_egl_swap, SURFACE, display, surface)
 ENTRY_POINT(tp_egl_boolean, eglSwapBuffersWithDamageEXT, TP_EGL_SWAP_BUFFERS_WITH_DAMAGE_EXT,
             tp_on_egl_swap_with_damage, SURFACE_DAMAGE, display, surface, rectangles, count)
@@ -70,6 +79,10 @@ ENTRY_POINT(void, glXCopySubBufferMESA, TP_GLX_COPY_SUB_BUFFER_MESA, tp_on_glx_c
             display, drawable, x, y, width, height)
 
 void* const tp_hooks[TP_ENTRY_COUNT][TP_BANK_SIZE] = {
+    [TP_EGL_DESTROY_CONTEXT] = BANK(eglDestroyContext),
+    [TP_EGL_DESTROY_SURFACE] = BANK(eglDestroySurface),
+    [TP_EGL_TERMINATE] = BANK(eglTerminate),
+    [TP_GLX_DESTROY_CONTEXT] = BANK(glXDestroyContext),
     [TP_EGL_GET_PROC_ADDRESS] = BANK(eglGetProcAddress),
     [TP_EGL_POST_SUB_BUFFER_NV] = BANK(eglPostSubBufferNV),
     [TP_EGL_SWAP_BUFFERS] = BANK(eglSwapBuffers),

@@ -75,3 +75,29 @@ void tp_on_glx_copy_sub_buffer(void* real, tp_display display, tp_glx_drawable d
   ((void (*)(tp_display, tp_glx_drawable, int, int, int, int))real)(display, drawable, x, y, width, height);
   if (taken) tp_presented(&present, true);
 }
+
+// What we keep for a display or a surface goes before the real call, while the handles are still good.
+
+tp_egl_boolean tp_on_egl_destroy_context(void* real, tp_display display, tp_context context) {
+  if (real == NULL) return 0;
+  tp_contexts_going(TILEPRESS_EGL, display);
+  return ((tp_egl_boolean(*)(tp_display, tp_context))real)(display, context);
+}
+
+tp_egl_boolean tp_on_egl_destroy_surface(void* real, tp_display display, tp_egl_surface surface) {
+  if (real == NULL) return 0;
+  tp_surface_going(display, (uintptr_t)surface);
+  return ((tp_egl_boolean(*)(tp_display, tp_egl_surface))real)(display, surface);
+}
+
+tp_egl_boolean tp_on_egl_terminate(void* real, tp_display display) {
+  if (real == NULL) return 0;
+  tp_contexts_going(TILEPRESS_EGL, display);
+  return ((tp_egl_boolean(*)(tp_display))real)(display);
+}
+
+void tp_on_glx_destroy_context(void* real, tp_display display, tp_context context) {
+  if (real == NULL) return;
+  tp_contexts_going(TILEPRESS_GLX, display);
+  ((void (*)(tp_display, tp_context))real)(display, context);
+}

@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 typedef void* tp_display;               // EGLDisplay, Display*
+typedef void* tp_context;               // EGLContext, GLXContext
 typedef void* tp_egl_surface;           // EGLSurface
 typedef unsigned long tp_glx_drawable;  // GLXDrawable, an XID
 typedef unsigned tp_egl_boolean;        // EGLBoolean
@@ -15,6 +16,10 @@ tp_egl_boolean tp_on_egl_swap_with_damage(void* real, tp_display display, tp_egl
                                           const tp_egl_int* rectangles, tp_egl_int count);
 tp_egl_boolean tp_on_egl_post_sub_buffer(void* real, tp_display display, tp_egl_surface surface, tp_egl_int x,
                                          tp_egl_int y, tp_egl_int width, tp_egl_int height);
+tp_egl_boolean tp_on_egl_destroy_context(void* real, tp_display display, tp_context context);
+tp_egl_boolean tp_on_egl_destroy_surface(void* real, tp_display display, tp_egl_surface surface);
+tp_egl_boolean tp_on_egl_terminate(void* real, tp_display display);
+void tp_on_glx_destroy_context(void* real, tp_display display, tp_context context);
 void tp_on_glx_swap(void* real, tp_display display, tp_glx_drawable drawable);
 int64_t tp_on_glx_swap_msc(void* real, tp_display display, tp_glx_drawable drawable, int64_t target_msc,
                            int64_t divisor, int64_t remainder);

@@ -33,3 +33,19 @@ void tp_presented(struct TilepressPresent* present, bool success) {
   pthread_setcancelstate(cancel_state, NULL);
   errno = saved;
 }
+
+void tp_contexts_going(uint32_t api, void* display) {
+  const struct TilepressEngine* engine = tp_loaded_engine();
+  if (engine == NULL || depth > 0) return;
+  const int saved = errno;
+  engine->contexts_going(api, display);
+  errno = saved;
+}
+
+void tp_surface_going(void* display, uintptr_t surface) {
+  const struct TilepressEngine* engine = tp_loaded_engine();
+  if (engine == NULL || depth > 0) return;
+  const int saved = errno;
+  engine->surface_going(display, surface);
+  errno = saved;
+}

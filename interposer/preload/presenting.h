@@ -11,3 +11,7 @@ bool tp_presenting(struct TilepressPresent* present);
 
 // After the real call.
 void tp_presented(struct TilepressPresent* present, bool success);
+
+// The program is about to destroy contexts of `display`, or a surface.
+void tp_contexts_going(uint32_t api, void* display);
+void tp_surface_going(void* display, uintptr_t surface);

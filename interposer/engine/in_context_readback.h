@@ -1,0 +1,19 @@
+// In-context readback: the way out where no private context can be had: reads in the program's own context.
+#pragma once
+
+#include "interposer/engine/captured_frame.h"
+#include "interposer/engine/gl_functions.h"
+#include "interposer/engine/surface_registry.h"
+
+namespace tilepress {
+
+/// True if TILEPRESS_READBACK=in-context forbids private contexts.
+bool in_program_context_only();
+
+/// Reads the whole back buffer of the current, foreign context into `frame`. Every state it sets is put back,
+/// and no call is made that could raise an error flag. `double_buffered`: the surface has a back buffer.
+/// False if the context cannot be read so (the format needs a question that this context does not know).
+bool read_in_program_context(const GlFunctions& gl, const SurfaceShape& shape, bool double_buffered,
+                             CapturedFrame& frame);
+
+}  // namespace tilepress

@@ -1,0 +1,102 @@
+// Surfaces: several windows, threads and sizes, each a surface of its own with its own frames, all pixels
+// right.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "expected_picture.h"
+#include "shim_process.h"
+
+namespace tilepress::testing {
+namespace {
+
+ShimRun run_scene(ShimTest& test, std::vector<std::string> arguments,
+                  std::map<std::string, std::string> environment = {}) {
+  arguments.insert(arguments.begin(), TILEPRESS_EGL_SCENES);
+  return test.run(arguments, std::move(environment));
+}
+
+/// Surface `surface` has exactly frames 0 … frames-1 of the size, each with the known picture.
+void expect_surface(const ShimTest& test, const CapturedRun& run, uint32_t surface, unsigned frames,
+                    int width, int height, bool with_alpha = true) {
+  std::vector<std::string> found;
+  for (const auto& row : run.frames) {
+    if (row.at("surface") != std::to_string(surface)) continue;
+    found.push_back(row.at("frame"));
+    EXPECT_EQ(row.at("width"), std::to_string(width));
+    EXPECT_EQ(row.at("height"), std::to_string(height));
+  }
+  ASSERT_EQ(found.size(), frames) << "surface " << surface;
+  for (unsigned frame = 0; frame < frames; ++frame) {
+    EXPECT_EQ(found[frame], std::to_string(frame));
+    EXPECT_EQ(test.dump(surface, frame), expected_picture(frame, width, height, with_alpha))
+        << "surface " << surface << " frame " << frame;
+  }
+}
+
+TEST(Surfaces, FourThreadsPresentingAtOnceAreFourSurfaces) {
+  ShimTest test;
+  const ShimRun run = run_scene(test, {"threads"});
+  EXPECT_TRUE(run.process.exited_with(0));
+  ASSERT_EQ(run.runs.size(), 1u);
+  EXPECT_EQ(run.runs[0].frames.size(), 48u) << run.log;
+  std::map<std::string, uint32_t> surface_by_width;
+  for (const auto& row : run.runs[0].frames)
+    surface_by_width[row.at("width")] = static_cast<uint32_t>(std::stoul(row.at("surface")));
+  ASSERT_EQ(surface_by_width.size(), 4u);
+  for (const auto& [width, surface] : surface_by_width)
+    expect_surface(test, run.runs[0], surface, 12, std::stoi(width), std::stoi(width) + 1);
+}
+
+TEST(Surfaces, TwoSurfacesOfOneContextHaveFramesOfTheirOwn) {
+  ShimTest test;
+  const ShimRun run = run_scene(test, {"alternate"});
+  ASSERT_EQ(run.runs.size(), 1u);
+  expect_surface(test, run.runs[0], 0, 5, 32, 32);
+  expect_surface(test, run.runs[0], 1, 5, 48, 24);
+}
+
+TEST(Surfaces, ASurfaceMadeAgainIsANewSurface) {
+  for (const char* scene : {"recreate", "terminate"}) {
+    ShimTest test;
+    const ShimRun run = run_scene(test, {scene});
+    EXPECT_TRUE(run.process.exited_with(0)) << scene;
+    ASSERT_EQ(run.runs.size(), 1u);
+    EXPECT_EQ(run.runs[0].frames.size(), 12u) << scene << run.log;
+    if (std::string(scene) == "terminate") continue;  // the handles are the driver's to choose
+    for (uint32_t surface = 0; surface < 3; ++surface) expect_surface(test, run.runs[0], surface, 4, 32, 32);
+  }
+}
+
+TEST(Surfaces, AResizedWindowGoesOnAsANewSurface) {
+  ShimTest test;
+  const ShimRun run = test.run({TILEPRESS_GLX_RESIZE}, {{"DISPLAY", own_display()}});
+  EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
+  EXPECT_EQ(run.process.out, "X errors: 0\n");
+  ASSERT_EQ(run.runs.size(), 1u);
+  expect_surface(test, run.runs[0], 0, 3, 64, 48, false);
+  expect_surface(test, run.runs[0], 1, 3, 80, 40, false);
+  expect_surface(test, run.runs[0], 2, 3, 33, 77, false);
+  expect_surface(test, run.runs[0], 3, 3, 64, 48, false);
+}
+
+TEST(Surfaces, FailedSwapsFailAsWithoutTheShimAndAreNoFrames) {
+  ShimTest test;
+  const ShimRun run = run_scene(test, {"failures"});
+  const ProcessResult without = run_process({TILEPRESS_EGL_SCENES, "failures"}, {{"LD_PRELOAD", ""}});
+  EXPECT_EQ(run.process.out, without.out);
+  ASSERT_EQ(run.runs.size(), 1u);
+  EXPECT_EQ(run.runs[0].frames.size(), 1u);
+  EXPECT_EQ(run.runs[0].json_number("seen"), 1);
+}
+
+TEST(Surfaces, WithoutAPrivateContextFramesAreReadInTheProgramsOwn) {
+  ShimTest test;
+  const ShimRun run = run_scene(test, {"alternate"}, {{"TILEPRESS_READBACK", "in-context"}});
+  ASSERT_EQ(run.runs.size(), 1u) << run.log;
+  expect_surface(test, run.runs[0], 0, 5, 32, 32);
+  expect_surface(test, run.runs[0], 1, 5, 48, 24);
+}
+
+}  // namespace
+}  // namespace tilepress::testing
