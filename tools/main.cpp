@@ -16,6 +16,8 @@ constexpr Verb kVerbs[] = {
     {"bench", "time each scheme beside memcpy and LZ4", verb_bench},
     {"report", "make a page for people from one run or many", verb_report},
     {"compare", "two runs side by side, with an exit status for regressions", verb_compare},
+    {"pack", "write images as compressed surfaces to a file", verb_pack},
+    {"unpack", "restore the images of a packed file, or read a part and count bursts", verb_unpack},
     {"schemes", "list the schemes and their options", verb_schemes},
     {"doctor", "tell what this machine offers and what is missing", verb_doctor},
 };

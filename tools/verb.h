@@ -16,7 +16,9 @@ int verb_doctor(int argc, char** argv);
 int verb_frames(int argc, char** argv);
 int verb_info(int argc, char** argv);
 int verb_report(int argc, char** argv);
+int verb_pack(int argc, char** argv);
 int verb_run(int argc, char** argv);
 int verb_schemes(int argc, char** argv);
+int verb_unpack(int argc, char** argv);
 
 }  // namespace tilepress

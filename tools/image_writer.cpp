@@ -1,0 +1,81 @@
+// Image writer: OpenImageIO for PNG.
+#include "image_writer.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+namespace tilepress {
+namespace {
+
+/// A channel of `from` bits as one of `to` bits: its bits repeated from the top, so 0 stays 0 and full full.
+uint32_t widen(uint32_t value, uint32_t from, uint32_t to) {
+  uint32_t wide = 0;
+  for (int32_t shift = static_cast<int32_t>(to - from); shift > -static_cast<int32_t>(from);
+       shift -= static_cast<int32_t>(from))
+    wide |= shift >= 0 ? value << shift : value >> -shift;
+  return wide;
+}
+
+}  // namespace
+
+std::string native_bytes(std::span<const uint32_t> words, PixelFormat format) {
+  const size_t pixel_bytes = traits(format).pixel_bits / 8;
+  std::string bytes(words.size() * pixel_bytes, '\0');
+  for (size_t i = 0; i < words.size(); ++i) std::memcpy(&bytes[i * pixel_bytes], &words[i], pixel_bytes);
+  return bytes;
+}
+
+const char* raw_extension(PixelFormat format) {
+  if (format == PixelFormat::kRgb565) return "rgb565";
+  return format == PixelFormat::kRgb10a2 ? "rgb10a2" : "rgba";
+}
+
+bool write_png(const std::string& path, std::span<const uint32_t> words, uint32_t width, uint32_t height,
+               PixelFormat format, std::string& error) {
+  const FormatTraits& bits = traits(format);
+  const bool alpha = format == PixelFormat::kRgba8 || format == PixelFormat::kRgb10a2;
+  const uint32_t depth = format == PixelFormat::kRgb10a2 ? 16 : 8;
+  const uint32_t channels = alpha ? 4 : 3;
+  std::vector<uint16_t> samples;
+  samples.reserve(words.size() * channels);
+  for (const uint32_t word : words)
+    for (uint32_t c = 0; c < channels; ++c) {
+      const int index = static_cast<int>(c);
+      samples.push_back(
+          static_cast<uint16_t>(widen(channel(bits, word, index), bits.channel_bits[c], depth)));
+    }
+
+  OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), static_cast<int>(channels),
+                       depth == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  const auto output = OIIO::ImageOutput::create(path);
+  if (!output || !output->open(path, spec)) {
+    const std::string reason = output ? output->geterror() : OIIO::geterror();
+    error = path + ": " + (reason.empty() ? std::strerror(errno) : reason);
+    return false;
+  }
+  bool written;
+  if (depth == 16) {
+    written = output->write_image(OIIO::TypeDesc::UINT16, samples.data());
+  } else {
+    const std::vector<uint8_t> bytes(samples.begin(), samples.end());
+    written = output->write_image(OIIO::TypeDesc::UINT8, bytes.data());
+  }
+  if (written && output->close()) return true;
+  error = path + ": " + output->geterror();
+  return false;
+}
+
+bool write_bytes(const std::string& path, const std::string& bytes, std::string& error) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) error = path + ": " + std::strerror(errno);
+  return static_cast<bool>(file);
+}
+
+}  // namespace tilepress

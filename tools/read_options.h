@@ -1,0 +1,18 @@
+// Read options: what verbs that read compressed surfaces share on the command line.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "tilepress/surface_reader.h"
+
+namespace tilepress {
+
+/// Adds --csb-lines and --csb-line-bursts.
+void add_read_options(CLI::App& app, ReadOptions& options);
+
+/// Parses "X,Y,WIDTH,HEIGHT"; nothing unless both sides are at least 1.
+std::optional<PixelRect> parse_rect(const std::string& text);
+
+}  // namespace tilepress
