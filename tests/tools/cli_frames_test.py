@@ -10,6 +10,8 @@ import zlib
 from cli_case import CliCase, GOLDEN, golden, main, read_json, read_rows
 
 USAGE, FAILED, NOTHING = 2, 1, 3
+# So that the leak sanitizer sees whose leak it is.
+WHOLE_STACKS = {"ASAN_OPTIONS": "fast_unwind_on_malloc=0"}
 
 
 def png(width, height, channels, bits, rows):
@@ -155,7 +157,7 @@ class BadInput(CliCase):
         with open(golden("odd", 1), "rb") as file:
             self.write("torn.png", file.read()[:20000])
         self.expect(FAILED, "torn.png: Read error: hit end of file", "frames", "-q", "-o", "out", golden("odd", 0), "torn.png",
-                    golden("odd", 2))
+                    golden("odd", 2), env=WHOLE_STACKS)
         self.assertEqual([row["frame"] for row in read_rows(self.path("out/frames.csv"))], ["0"])
         run = read_json(self.path("out/run.json"))
         self.assertEqual((run["state"], run["reason"]), ("failed", "torn.png: Read error: hit end of file"))
@@ -163,7 +165,8 @@ class BadInput(CliCase):
     def test_a_truncated_header_makes_nothing(self):
         with open(golden("odd", 1), "rb") as file:
             self.write("torn.png", file.read()[:20])
-        self.expect(FAILED, "torn.png: Read error: hit end of file", "frames", "-o", "out", golden("odd", 0), "torn.png")
+        self.expect(FAILED, "torn.png: Read error: hit end of file", "frames", "-o", "out", golden("odd", 0), "torn.png",
+                    env=WHOLE_STACKS)
         self.assert_absent("out")
 
     def test_what_is_no_image_is_named(self):
