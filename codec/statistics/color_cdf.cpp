@@ -1,0 +1,77 @@
+// Colour CDF: sorts a frame's pixels, counts runs, sorts the counts.
+#include "tilepress/color_cdf.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "tilepress/plane.h"
+#include "tilepress/statistics.h"
+
+namespace tilepress {
+namespace {
+
+/// Orders words as their color_text: red first.
+uint64_t text_order(uint32_t color, const FormatTraits& format) {
+  uint64_t key = 0;
+  for (int c = 0; c < 4; ++c) key = key << 16 | channel(format, color, c);
+  return key;
+}
+
+}  // namespace
+
+std::vector<ColorCount> color_counts(const SurfaceView& frame) {
+  PixelPlane plane;
+  plane.assign(frame);
+  std::vector<uint32_t> words;
+  words.reserve(size_t{plane.width()} * plane.height());
+  for (uint32_t y = 0; y < plane.height(); ++y)
+    words.insert(words.end(), plane.row(y), plane.row(y) + plane.width());
+  std::sort(words.begin(), words.end());
+  std::vector<ColorCount> counts;
+  for (const uint32_t word : words) {
+    if (counts.empty() || counts.back().color != word) counts.push_back({word, 0});
+    ++counts.back().count;
+  }
+  const FormatTraits& format = traits(frame.format);
+  std::sort(counts.begin(), counts.end(), [&](const ColorCount& a, const ColorCount& b) {
+    return a.count != b.count ? a.count > b.count : text_order(a.color, format) < text_order(b.color, format);
+  });
+  return counts;
+}
+
+std::string color_text(uint32_t color, PixelFormat format) {
+  const FormatTraits& bits = traits(format);
+  uint32_t value[4];
+  for (int c = 0; c < 4; ++c) value[c] = channel(bits, color, c);
+  char text[16];
+  if (format == PixelFormat::kRgb10a2) {
+    std::snprintf(text, sizeof text, "#%03X%03X%03X%X", value[0], value[1], value[2], value[3]);
+    return text;
+  }
+  for (int c = 0; c < 4; ++c) {
+    const uint32_t width = bits.channel_bits[c];
+    if (width == 0) value[c] = 255;
+    if (width > 0 && width < 8) value[c] = value[c] << (8 - width) | value[c] >> (2 * width - 8);
+  }
+  std::snprintf(text, sizeof text, "#%02X%02X%02X%02X", value[0], value[1], value[2], value[3]);
+  return text;
+}
+
+std::string color_cdf_header() {
+  return "frame,surface,rank,color,count,cumulative\n";
+}
+
+void append_color_cdf(uint64_t frame, uint32_t surface, PixelFormat format,
+                      const std::vector<ColorCount>& counts, std::string& out) {
+  uint64_t pixels = 0, so_far = 0, rank = 0;
+  for (const ColorCount& entry : counts) pixels += entry.count;
+  const std::string begin = std::to_string(frame) + ',' + std::to_string(surface) + ',';
+  for (const ColorCount& entry : counts) {
+    so_far += entry.count;
+    out += begin + std::to_string(++rank) + ',' + color_text(entry.color, format) + ',' +
+           std::to_string(entry.count) + ',' +
+           csv_number(static_cast<double>(so_far) / static_cast<double>(pixels)) + '\n';
+  }
+}
+
+}  // namespace tilepress
