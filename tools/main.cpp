@@ -12,6 +12,8 @@ namespace {
 constexpr Verb kVerbs[] = {
     {"run", "run a program and capture every frame it presents", verb_run},
     {"frames", "take frames from images or raw files", verb_frames},
+    {"replay", "replay recorded traces without a display and capture their frames", verb_replay},
+    {"record", "record a program into a trace", verb_record},
     {"info", "tell what recorded traces hold", verb_info},
     {"bench", "time each scheme beside memcpy and LZ4", verb_bench},
     {"report", "make a page for people from one run or many", verb_report},

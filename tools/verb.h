@@ -17,6 +17,8 @@ int verb_frames(int argc, char** argv);
 int verb_info(int argc, char** argv);
 int verb_report(int argc, char** argv);
 int verb_pack(int argc, char** argv);
+int verb_record(int argc, char** argv);
+int verb_replay(int argc, char** argv);
 int verb_run(int argc, char** argv);
 int verb_schemes(int argc, char** argv);
 int verb_unpack(int argc, char** argv);

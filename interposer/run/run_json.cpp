@@ -170,6 +170,10 @@ std::string finished_run_json(std::string_view text, const RunRecord& record, co
             {"program", record.info.program}};
   json["state"] = record.state;
   json["reason"] = record.reason;
+  if (!end.program.empty()) json["program"] = end.program;
+  if (!end.via.empty()) json["via"] = end.via;
+  for (const auto& [name, value] : end.further) json[name] = value;
+  for (const auto& [name, value] : end.figures) json[name] = value;
   if (end.exit_status) json["exit_status"] = *end.exit_status;
   if (end.signal) json["signal"] = *end.signal;
   json["ended"] = utc_now();

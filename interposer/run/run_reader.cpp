@@ -227,10 +227,13 @@ bool close_run(const std::string& path, const RunEnd& end, RunRecord& record, st
   if (!read_tables(path, record, tables, error)) return false;
   if (!cut_file(path + "/frames.csv", tables.frames_text, tables.frames_end, error)) return false;
   if (!cut_file(path + "/schemes.csv", tables.schemes_text, tables.schemes_end, error)) return false;
-  if (record.state == "running" || (end.signal && record.state != "failed")) {
+  if (end.overrules || record.state == "running" || (end.signal && record.state != "failed")) {
     record.state = end.state;
     record.reason = end.reason;
   }
+  if (!end.program.empty()) record.info.program = end.program;
+  if (!end.via.empty()) record.info.via = end.via;
+  for (const auto& member : end.further) record.info.further.push_back(member);
   RunCounts& counts = record.counts;
   counts.captured = record.frames.size();
   counts.seen = std::max(counts.seen, counts.captured + counts.dropped + counts.skipped + counts.unsupported +

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tilepress/run_directory.h"
@@ -42,11 +43,15 @@ struct RunEnd {
   std::string reason;
   std::optional<int> exit_status;
   std::optional<int> signal;
+  bool overrules = false;    ///< state and reason count, whatever the run itself has noted
+  std::string program, via;  ///< take the place of what run.json says, unless empty
+  std::vector<std::pair<std::string, std::string>> further;  ///< more string members for run.json
+  std::vector<std::pair<std::string, uint64_t>> figures;     ///< more integer members for run.json
 };
 
 /// Closes a run whose program has ended: cuts off a torn last row and the rows of an incomplete frame, and
 /// replaces run.json by one with totals over what is there. What the run itself has noted ("finished",
-/// "failed") stays, except that a signal overrules "finished". `record` receives the run as it then is. False
+/// "failed") stays, except that a signal overrules "finished", and `end.overrules` both. `record` receives the run as it then is. False
 /// and one line in `error` on failure.
 bool close_run(const std::string& path, const RunEnd& end, RunRecord& record, std::string& error);
 

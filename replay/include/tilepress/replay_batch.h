@@ -1,0 +1,49 @@
+// Replay batch: many traces, some at a time, and the means over them.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tilepress/trace_replay.h"
+
+namespace tilepress {
+
+/// A batch's frames so far.
+struct BatchProgress {
+  uint64_t frames_done = 0;
+  uint64_t frames_wanted = 0;  ///< over all traces that can be replayed
+};
+
+class ReplayBatch {
+ public:
+  /// The options must outlive the batch.
+  ReplayBatch(const std::vector<ReplayInput>& inputs, const ReplayOptions& options);
+  /// Reads all traces, then replays those that can be, `jobs` at a time; a trace that fails does not stop the
+  /// others. `tick` is called ten times a second or so, from this thread. Returns early, with the replays at
+  /// work ended and failed, once `stop` is true.
+  void run(unsigned jobs, const std::atomic<bool>& stop,
+           const std::function<void(const BatchProgress&)>& tick);
+  /// In the order of the inputs.
+  const std::vector<std::unique_ptr<TraceReplay>>& replays() const { return replays_; }
+
+ private:
+  std::vector<std::unique_ptr<TraceReplay>> replays_;
+};
+
+/// Mean of one scheme over the traces of one category (spec §7): harmonic, each trace counting the same.
+struct CategoryMean {
+  std::string category;  ///< empty: over all traces
+  std::string scheme;
+  uint64_t traces = 0;
+  double rate = 0, rate_payload = 0;
+};
+
+/// Over the traces that were captured in full and have measured frames; categories in order of first
+/// occurrence, at the end all traces together.
+std::vector<CategoryMean> category_means(const std::vector<std::unique_ptr<TraceReplay>>& replays);
+
+}  // namespace tilepress

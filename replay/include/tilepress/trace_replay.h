@@ -1,0 +1,98 @@
+// Trace replay: one recorded trace through a retracer under the shim, into a run directory.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tilepress/run_options.h"
+#include "tilepress/run_reader.h"
+#include "tilepress/trace_summary.h"
+
+namespace tilepress {
+
+/// Which of apitrace's retracers: eglretrace replays EGL and GLX calls, glretrace needs X.
+enum class RetracerChoice : uint8_t { kAuto, kEgl, kGlx };
+/// Where it draws: nowhere, on a private Xvfb, or on the X server of DISPLAY.
+enum class ReplayDisplay : uint8_t { kAuto, kSurfaceless, kXvfb, kX11 };
+
+struct ReplayOptions {
+  RunOptions run;  ///< output: the folder of all replays, absolute
+  RetracerChoice retracer = RetracerChoice::kAuto;
+  ReplayDisplay display = ReplayDisplay::kAuto;
+  std::chrono::seconds timeout{300};  ///< without any frame, until the retracer is taken for hung; 0 = never
+  bool resume = false;                ///< keep finished replays of the same trace with the same options
+  std::string shim;                   ///< libtilepress-preload.so, absolute, without spaces and colons
+  /// Called with one line about what is done and why; from any thread.
+  std::function<void(const std::string&)> explain = [](const std::string&) {};
+};
+
+/// A trace to replay and what is known of it.
+struct ReplayInput {
+  std::string path;
+  std::string name;                ///< of the folder below the output folder
+  std::string category;            ///< "UI", "2D", "3D" or empty
+  std::string sha256;              ///< checked if not empty
+  std::optional<FrameSet> frames;  ///< in place of the options' frames
+};
+
+enum class ReplayStatus : uint8_t {
+  kWaiting,
+  kDone,             ///< every frame asked for was captured
+  kKept,             ///< --resume: it had been done before
+  kFailed,           ///< not replayed, or not all frames were captured
+  kNothingCaptured,  ///< a readable trace of which not one frame was captured
+};
+
+struct ReplayResult {
+  ReplayStatus status = ReplayStatus::kWaiting;
+  std::string reason;                       ///< one line without the path, unless done
+  std::vector<std::string> retracer_lines;  ///< what the retracer said last, if it failed
+  uint64_t frames_in_trace = 0;
+  uint64_t frames_wanted = 0;  ///< of those, asked for
+  uint64_t frames_captured = 0;
+  double seconds = 0;  ///< start of the retracer to its end
+  RunRecord run;       ///< as written; empty if nothing was captured
+};
+
+/// Usage: prepare(), then, if it returns true, run().
+class TraceReplay {
+ public:
+  TraceReplay(ReplayInput input, const ReplayOptions& options);
+
+  /// Reads the trace. False if there is nothing to run; result() then says why.
+  bool prepare();
+  /// Replays. Ends early, as failed, once `stop` is true.
+  void run(const std::atomic<bool>& stop);
+
+  const ReplayInput& input() const { return input_; }
+  const ReplayResult& result() const { return result_; }
+  /// Frames finished so far; from any thread.
+  uint64_t frames_done() const { return frames_done_.load(std::memory_order_relaxed); }
+
+ private:
+  struct Attempt;
+  bool check_folder();
+  bool keep_finished_run();
+  void fail(std::string reason, ReplayStatus status = ReplayStatus::kFailed);
+  std::string fingerprint() const;
+  void find_run(Attempt& attempt);
+  void judge(const Attempt& attempt);
+  void settle(const Attempt& attempt);
+  std::string end_text(const Attempt& attempt) const;
+  std::string missing_text(const Attempt& attempt) const;
+
+  ReplayInput input_;
+  const ReplayOptions& options_;
+  RunOptions run_options_;  ///< with the input's own frames
+  TraceSummary trace_;
+  std::string sha256_, run_path_, partial_path_;
+  ReplayResult result_;
+  std::atomic<uint64_t> frames_done_{0};
+};
+
+}  // namespace tilepress

@@ -1,0 +1,110 @@
+// Replay attempt: environment and command of the retracer, and the watch over it.
+#include "replay_attempt.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "frame_rows.h"
+#include "private_xvfb.h"
+#include "program_search.h"
+#include "watched_process.h"
+
+namespace tilepress {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kLookPeriod{50};
+
+std::map<std::string, std::string> environment_of(const ReplayRoad& road, const AttemptOrder& order,
+                                                  const ReplayOptions& options, RunOptions run) {
+  run.output = order.folder + "/runs";
+  run.log_file = order.folder + "/session/log";
+  std::map<std::string, std::string> environment = to_environment(run);
+  environment["TILEPRESS_SESSION"] = order.folder + "/session";
+  const char* preload = std::getenv("LD_PRELOAD");
+  environment["LD_PRELOAD"] =
+      preload != nullptr && *preload != '\0' ? options.shim + ":" + preload : options.shim;
+  environment["WAFFLE_PLATFORM"] = road.waffle_platform;
+  // What a desktop session says about window systems must not reach a replay.
+  environment["EGL_PLATFORM"] = "";
+  environment["WAYLAND_DISPLAY"] = "";
+  if (road.display != ReplayDisplay::kX11) environment["DISPLAY"] = environment["XAUTHORITY"] = "";
+  return environment;
+}
+
+std::vector<std::string> lines_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> seen_in(const std::string& folder) {
+  std::vector<std::string> lines;
+  std::error_code code;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, code))
+    if (entry.path().extension() == ".seen")
+      for (std::string& line : lines_of(entry.path())) lines.push_back(std::move(line));
+  return lines;
+}
+
+/// Waits for the end of the retracer, or brings it about.
+void watch(WatchedProcess& retracer, const AttemptOrder& order, const ReplayOptions& options,
+           const std::atomic<bool>& stop, std::atomic<uint64_t>& rows, AttemptOutcome& outcome) {
+  FrameRows frames(order.folder + "/runs");
+  auto moved = Clock::now();
+  while (!retracer.wait(kLookPeriod)) {
+    if (frames.look()) moved = Clock::now();
+    rows.store(frames.count(), std::memory_order_relaxed);
+    outcome.interrupted = stop.load(std::memory_order_relaxed);
+    outcome.stopped_early = order.may_stop_early && frames.count() >= order.frames_wanted;
+    outcome.hung = options.timeout.count() > 0 && Clock::now() - moved > options.timeout;
+    if (!outcome.interrupted && !outcome.stopped_early && !outcome.hung) continue;
+    retracer.end();
+    return;
+  }
+  frames.look();
+  rows.store(frames.count(), std::memory_order_relaxed);
+}
+
+}  // namespace
+
+AttemptOutcome run_attempt(const ReplayRoad& road, const AttemptOrder& order, const ReplayOptions& options,
+                           const RunOptions& run, const std::atomic<bool>& stop,
+                           std::atomic<uint64_t>& rows) {
+  AttemptOutcome outcome;
+  const std::string program = find_in_path(road.retracer);
+  if (program.empty()) {
+    outcome.error = road.retracer + ": not found (Debian package apitrace)";
+    return outcome;
+  }
+  std::error_code code;
+  for (const char* part : {"/runs", "/session"})
+    std::filesystem::create_directories(order.folder + part, code);
+  if (code) {
+    outcome.error = order.folder + ": " + code.message();
+    return outcome;
+  }
+  std::map<std::string, std::string> environment = environment_of(road, order, options, run);
+  PrivateXvfb xvfb;
+  if (road.display == ReplayDisplay::kXvfb) {
+    if (!xvfb.start(order.folder + "/session", order.width, order.height, outcome.error)) return outcome;
+    environment["DISPLAY"] = xvfb.display();
+    environment["XAUTHORITY"] = xvfb.authority();
+  }
+  WatchedProcess retracer;
+  const auto begin = Clock::now();
+  if (!retracer.start({program, "-b", order.trace_path}, environment, outcome.error)) return outcome;
+  watch(retracer, order, options, stop, rows, outcome);
+  outcome.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  outcome.exit_status = retracer.exit_status();
+  outcome.signal = retracer.signal();
+  outcome.last_lines.assign(retracer.errors().lines().begin(), retracer.errors().lines().end());
+  outcome.seen = seen_in(order.folder + "/session");
+  for (const std::string& line : lines_of(order.folder + "/session/log")) options.explain(line);
+  return outcome;
+}
+
+}  // namespace tilepress

@@ -1,0 +1,185 @@
+// Watched process: fork, exec, pipes.
+#include "watched_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <thread>
+
+extern char** environ;
+
+namespace tilepress {
+namespace {
+
+constexpr int kExecFailed = 127;
+
+/// "NAME=value" strings of our environment with `changes` applied, and pointers to them for execve.
+struct Environment {
+  explicit Environment(const std::map<std::string, std::string>& changes) {
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+      const std::string_view text(*entry);
+      if (!changes.contains(std::string(text.substr(0, text.find('='))))) strings.emplace_back(text);
+    }
+    for (const auto& [name, value] : changes)
+      if (!value.empty()) strings.push_back(name + "=" + value);
+    for (std::string& text : strings) pointers.push_back(text.data());
+    pointers.push_back(nullptr);
+  }
+  std::vector<std::string> strings;
+  std::vector<char*> pointers;
+};
+
+/// In the child of a program with threads: system calls only.
+[[noreturn]] void become(char* const* argv, char* const* environment, pid_t parent, const int (&fds)[3],
+                         int report_fd, int kept_fd) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(kExecFailed);
+  for (int i = 0; i < 3; ++i) dup2(fds[i], i);
+  if (kept_fd >= 0) fcntl(kept_fd, F_SETFD, 0);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  for (const int ignored : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(ignored, SIG_DFL);
+  execve(argv[0], argv, environment);
+  const int error = errno;
+  if (write(report_fd, &error, sizeof error) < 0) _exit(kExecFailed);
+  _exit(kExecFailed);
+}
+
+void close_all(std::initializer_list<int> fds) {
+  for (const int fd : fds)
+    if (fd >= 0) close(fd);
+}
+
+}  // namespace
+
+void LastLines::add(const char* bytes, size_t count) {
+  for (size_t i = 0; i < count; ++i) {
+    if (bytes[i] == '\n' || bytes[i] == '\r') {
+      open_ = false;
+      continue;
+    }
+    if (!open_) {
+      lines_.emplace_back();
+      if (lines_.size() > kMaxLines) lines_.pop_front();
+      open_ = true;
+    }
+    if (lines_.back().size() < kMaxLineBytes) lines_.back() += bytes[i];
+  }
+}
+
+WatchedProcess::~WatchedProcess() {
+  end();
+  close_all({output_fd_, errors_fd_});
+}
+
+bool WatchedProcess::start(const std::vector<std::string>& argv,
+                           const std::map<std::string, std::string>& environment, std::string& error,
+                           int kept_fd) {
+  const Environment variables(environment);
+  std::vector<char*> words;
+  for (const std::string& word : argv) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+
+  int output[2] = {-1, -1}, errors[2] = {-1, -1}, report[2] = {-1, -1};
+  const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+  bool good = nothing >= 0 && pipe2(output, O_CLOEXEC) == 0 && pipe2(errors, O_CLOEXEC) == 0 &&
+              pipe2(report, O_CLOEXEC) == 0;
+  const pid_t parent = getpid();
+  if (good) pid_ = fork();
+  if (good && pid_ == 0)
+    become(words.data(), variables.pointers.data(), parent, {nothing, output[1], errors[1]}, report[1],
+           kept_fd);
+  int failure = errno;
+  close_all({nothing, output[1], errors[1], report[1]});
+  if (!good || pid_ < 0) {
+    close_all({output[0], errors[0], report[0]});
+    error = argv[0] + ": " + std::strerror(failure);
+    return false;
+  }
+  setpgid(pid_, pid_);  // here too: whoever comes first, the group exists from now on
+  ssize_t got = 0;
+  while ((got = read(report[0], &failure, sizeof failure)) < 0 && errno == EINTR) {
+  }
+  close(report[0]);
+  output_fd_ = output[0];
+  errors_fd_ = errors[0];
+  for (const int fd : {output_fd_, errors_fd_}) fcntl(fd, F_SETFL, O_NONBLOCK);
+  if (got != sizeof failure) return true;
+  reap(0);
+  error = argv[0] + ": " + std::strerror(failure);
+  return false;
+}
+
+bool WatchedProcess::read_from(int& fd, LastLines& lines) {
+  char buffer[4096];
+  ssize_t got = 0;
+  while ((got = read(fd, buffer, sizeof buffer)) > 0) lines.add(buffer, static_cast<size_t>(got));
+  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return true;
+  close(fd);
+  fd = -1;
+  return false;
+}
+
+bool WatchedProcess::reap(int flags) {
+  if (!running()) return true;
+  int status = 0;
+  pid_t got = 0;
+  while ((got = waitpid(pid_, &status, flags)) < 0 && errno == EINTR) {
+  }
+  if (got == 0) return false;
+  ended_ = true;
+  if (got == pid_ && WIFSIGNALED(status))
+    signal_ = WTERMSIG(status);
+  else
+    exit_status_ = got == pid_ ? WEXITSTATUS(status) : kExecFailed;
+  return true;
+}
+
+bool WatchedProcess::wait(std::chrono::milliseconds time) {
+  const auto until = std::chrono::steady_clock::now() + time;
+  for (;;) {
+    std::array<pollfd, 2> fds = {pollfd{output_fd_, POLLIN, 0}, pollfd{errors_fd_, POLLIN, 0}};
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
+    const bool streams_open = output_fd_ >= 0 || errors_fd_ >= 0;
+    // With both streams closed the process is about to end, and nothing wakes us when it does.
+    const auto slice = std::max<int64_t>(0, streams_open ? left.count() : std::min<int64_t>(left.count(), 5));
+    if (streams_open && running()) {
+      poll(fds.data(), fds.size(), static_cast<int>(slice));
+    } else {
+      std::this_thread::sleep_for(std::chrono::milliseconds(reap(WNOHANG) ? 0 : slice));
+    }
+    if (output_fd_ >= 0 && fds[0].revents != 0) read_from(output_fd_, output_);
+    if (errors_fd_ >= 0 && fds[1].revents != 0) read_from(errors_fd_, errors_);
+    if (reap(WNOHANG)) {
+      if (output_fd_ >= 0) read_from(output_fd_, output_);
+      if (errors_fd_ >= 0) read_from(errors_fd_, errors_);
+      return true;
+    }
+    if (left.count() <= 0) return false;
+  }
+}
+
+void WatchedProcess::send(int signal) {
+  if (running()) kill(-pid_, signal);
+}
+
+void WatchedProcess::end() {
+  if (!running()) return;
+  send(SIGTERM);
+  if (wait(std::chrono::seconds(1))) return;
+  send(SIGKILL);
+  reap(0);
+}
+
+}  // namespace tilepress

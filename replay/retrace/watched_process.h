@@ -1,0 +1,64 @@
+// Watched process: a program in the background whose output is read and which can be ended.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tilepress {
+
+/// Whole lines of a stream, the last ones only; endless lines are cut.
+class LastLines {
+ public:
+  void add(const char* bytes, size_t count);
+  const std::deque<std::string>& lines() const { return lines_; }
+
+ private:
+  static constexpr size_t kMaxLines = 20, kMaxLineBytes = 400;
+  std::deque<std::string> lines_;
+  bool open_ = false;  ///< the last line has no end yet
+};
+
+/// The process leads a group of its own and dies with the thread that started it. Not thread-safe.
+class WatchedProcess {
+ public:
+  WatchedProcess() = default;
+  WatchedProcess(const WatchedProcess&) = delete;
+  WatchedProcess& operator=(const WatchedProcess&) = delete;
+  ~WatchedProcess();  ///< kills it if it still runs
+
+  /// An empty value takes the variable away. `kept_fd`, if any, stays open under its number. argv[0] is a
+  /// path. False and one line in `error` if the program cannot be started.
+  bool start(const std::vector<std::string>& argv, const std::map<std::string, std::string>& environment,
+             std::string& error, int kept_fd = -1);
+  /// Reads output until the process has ended or the time is over. True once it has ended.
+  bool wait(std::chrono::milliseconds time);
+  /// Sends a signal to the group.
+  void send(int signal);
+  /// Ends the group: SIGTERM, and SIGKILL where that does not help within a second.
+  void end();
+
+  pid_t pid() const { return pid_; }
+  bool running() const { return pid_ > 0 && !ended_; }
+  std::optional<int> exit_status() const { return exit_status_; }
+  std::optional<int> signal() const { return signal_; }
+  const LastLines& output() const { return output_; }
+  const LastLines& errors() const { return errors_; }
+
+ private:
+  bool read_from(int& fd, LastLines& lines);
+  bool reap(int flags);
+
+  pid_t pid_ = -1;
+  bool ended_ = false;
+  int output_fd_ = -1, errors_fd_ = -1;
+  std::optional<int> exit_status_, signal_;
+  LastLines output_, errors_;
+};
+
+}  // namespace tilepress

@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""`tilepress record` from the command line.
+
+Usage: cli_record_test.py TILEPRESS TRACE_FOLDER [TEST...]"""
+import json
+
+from cli_case import CliCase, XServer, main
+
+NOTHING = 3
+SCENE = ["-b", "clear:duration=0.3", "--size", "96x64"]
+
+
+class Records(CliCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.server = XServer()
+        cls.server.__enter__()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.__exit__()
+
+    def record(self, *words, status=0):
+        done = self.run_command("record", "-o", "x.trace", "-v", *words,
+                                env={"DISPLAY": self.server.display, "WAYLAND_DISPLAY": ""})
+        self.assertEqual(done.returncode, status, done.stderr.decode())
+        return done.stderr.decode()
+
+    def recorded(self):
+        return json.loads(self.run_command("info", "--json", "x.trace").stdout)[0]
+
+    def test_an_egl_program_by_the_names_in_its_file(self):
+        self.assertIn("recording EGL (the program names EGL", self.record("--", "glmark2-es2", *SCENE))
+        trace = self.recorded()
+        self.assertEqual((trace["api"], trace["state"]), ("EGL", "complete"))
+        self.assertGreater(trace["frames"], 0)
+        self.assertEqual((trace["surfaces"][0]["width"], trace["surfaces"][0]["height"]), (96, 64))
+
+    def test_a_glx_program_by_the_names_in_its_file(self):
+        self.assertIn("recording GLX (the program names GLX", self.record("--", "glmark2", *SCENE))
+        self.assertEqual(self.recorded()["api"], "GLX")
+
+    def test_a_program_that_does_not_tell_by_trying(self):
+        text = self.record("--", "sh", "-c", 'exec "$0" "$@"', "glmark2-es2", *SCENE)
+        self.assertIn("running it again for EGL", text)
+        self.assertEqual(self.recorded()["api"], "EGL")
+
+    def test_nothing_of_a_program_without_gl(self):
+        text = self.record("--", "sh", "-c", "true", status=NOTHING)
+        self.assertIn("tilepress: sh: no frame recorded: ", text)
+        self.assert_absent("x.trace")
+        self.assert_absent("x.trace.partial")
+
+    def test_nothing_through_the_wrong_api_and_says_so(self):
+        text = self.record("--api", "egl", "--", "glxinfo", status=NOTHING)
+        self.assertIn("no frame recorded", text)
+
+    def test_not_over_a_file_that_exists(self):
+        self.write("x.trace", b"mine")
+        self.expect(1, "x.trace: exists already", "record", "-o", "x.trace", "--", "true")
+
+
+if __name__ == "__main__":
+    main()

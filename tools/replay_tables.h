@@ -1,0 +1,21 @@
+// Replay tables: what a batch of replays came to, for people and as CSV.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tilepress/replay_batch.h"
+
+namespace tilepress {
+
+/// A line per trace with frames, time and the rate of each scheme, and a line per category with the harmonic
+/// means.
+std::string replay_table(const std::vector<std::unique_ptr<TraceReplay>>& replays);
+
+/// Writes replay.csv (a row per trace and scheme) and categories.csv (a row per category and scheme) into
+/// `folder`. False and one line in `error` on failure.
+bool write_replay_csv(const std::string& folder, const std::vector<std::unique_ptr<TraceReplay>>& replays,
+                      std::string& error);
+
+}  // namespace tilepress
