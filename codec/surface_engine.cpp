@@ -62,6 +62,8 @@ struct SurfaceEngine::State {
   FrameMeter meter;
   BlockCheck check;
   uint64_t ordinal = 0;
+  bool has_before = false;
+  bool opened = false;  ///< lanes and collectors are there
   bool needs_ras = false, needs_ras_ycocg = false;
   std::span<CompressedSurface> surfaces;      ///< where this frame is stored; empty if nowhere
   uint32_t burst_round = 0, burst_shift = 0;  ///< burst_bits is a power of two
@@ -86,6 +88,7 @@ Collector& SurfaceEngine::State::collector_for(const FvcConfig& config, const Fo
 }
 
 void SurfaceEngine::State::open(const FormatTraits& format) {
+  opened = true;
   burst_round = options.burst_bits - 1;
   burst_shift = static_cast<uint32_t>(std::countr_zero(options.burst_bits));
   if (options.frame_metrics) collector_for(FvcConfig{}, format);
@@ -205,7 +208,7 @@ void SurfaceEngine::State::end_frame(FrameStatistics& out) {
   }
   out.metrics = FrameMetrics{};
   if (options.frame_metrics)
-    out.metrics = meter.measure(now, ordinal == 0 ? nullptr : &before, collectors.front().fvc);
+    out.metrics = meter.measure(now, has_before ? &before : nullptr, collectors.front().fvc);
   for (Collector& collector : collectors) {
     if (!collector.wanted || !collector.collecting) continue;
     collector.ccd.build(collector.fvc);
@@ -213,6 +216,7 @@ void SurfaceEngine::State::end_frame(FrameStatistics& out) {
     collector.has_ccd = true;
   }
   std::swap(now, before);
+  has_before = true;
   ++ordinal;
 }
 
@@ -229,6 +233,24 @@ uint64_t SurfaceEngine::frames() const {
   return state_->ordinal;
 }
 
+std::vector<uint64_t> SurfaceEngine::history(uint64_t ordinal, PixelFormat format) {
+  if (!state_->opened) state_->open(traits(format));
+  std::vector<uint64_t> frames;
+  if (ordinal == 0) return frames;
+  frames.push_back(ordinal - 1);
+  for (const Collector& collector : state_->collectors)
+    frames.push_back((ordinal - 1) / collector.fvc.config().period * collector.fvc.config().period);
+  for (const Lane& lane : state_->lanes)
+    if (lane.needs.first_frame) frames.push_back(0);
+  std::sort(frames.begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  return frames;
+}
+
+void SurfaceEngine::seek(uint64_t ordinal) {
+  state_->ordinal = ordinal;
+}
+
 void SurfaceEngine::process(const SurfaceView& frame, FrameStatistics& out) {
   process(frame, out, {});
 }
@@ -241,10 +263,10 @@ void SurfaceEngine::process(const SurfaceView& frame, FrameStatistics& out,
   State& state = *state_;
   const FormatTraits& format = traits(frame.format);
   state.now.assign(frame);
-  if (state.ordinal == 0)
-    state.open(format);
+  if (state.opened)
+    assert(!state.has_before || state.now.same_shape(state.before));
   else
-    assert(state.now.same_shape(state.before));
+    state.open(format);
   out.width = frame.width;
   out.height = frame.height;
   out.format = frame.format;

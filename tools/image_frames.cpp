@@ -12,6 +12,8 @@
 #include <chrono>
 #include <cstring>
 
+#include "quiet_standard_error.h"
+
 namespace tilepress {
 
 struct ImageFrames::Source {
@@ -32,27 +34,6 @@ std::string first_line(std::string text) {
   while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
   return text;
 }
-
-/// Takes standard error away while it lives: libpng and its kin print there what they also report. One at a
-/// time.
-class QuietStandardError {
- public:
-  QuietStandardError() : saved_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)) {
-    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (saved_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
-    if (nowhere >= 0) close(nowhere);
-  }
-  ~QuietStandardError() {
-    if (saved_ < 0) return;
-    dup2(saved_, STDERR_FILENO);
-    close(saved_);
-  }
-  QuietStandardError(const QuietStandardError&) = delete;
-  QuietStandardError& operator=(const QuietStandardError&) = delete;
-
- private:
-  int saved_;
-};
 
 /// Opens an image with its alpha left as stored.
 OIIO::ImageInput::unique_ptr open_input(const std::string& path, std::string& error) {
@@ -134,6 +115,15 @@ std::optional<FrameSize> parse_frame_size(const std::string& text) {
 
 ImageFrames::ImageFrames() = default;
 ImageFrames::~ImageFrames() = default;
+ImageFrames::ImageFrames(ImageFrames&&) noexcept = default;
+
+ImageFrames ImageFrames::another() const {
+  ImageFrames out;
+  out.sources_ = sources_;
+  out.size_ = size_;
+  out.format_ = format_;
+  return out;
+}
 
 std::optional<uint64_t> ImageFrames::count() const {
   return streamed_ ? std::nullopt : std::optional<uint64_t>(sources_.size());

@@ -33,10 +33,14 @@ class ImageFrames {
  public:
   ImageFrames();
   ~ImageFrames();
+  ImageFrames(ImageFrames&&) noexcept;
   /// Reads every file's header, decodes nothing. Without `raw_size` there are no raw files. False and one
   /// line in `error` if a file is missing, unreadable, of a kind that would have to be narrowed (more than 8
   /// bits a channel), or not of the size of the first.
   bool open(const std::vector<std::string>& paths, std::optional<FrameSize> raw_size, std::string& error);
+
+  /// The same frames, to be read by another thread. Not for standard input.
+  ImageFrames another() const;
 
   FrameSize size() const { return size_; }
   /// kRgba8 if any image has alpha, else kRgbx8.

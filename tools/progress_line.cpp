@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "quiet_standard_error.h"
+
 namespace tilepress {
 namespace {
 
@@ -50,19 +52,19 @@ void ProgressLine::show(uint64_t done, std::optional<uint64_t> total) {
     nlohmann::ordered_json json = {{"progress", what_}, {"frames_done", done}, {"elapsed_s", elapsed}};
     if (total) json["frames_total"] = *total;
     if (left) json["eta_s"] = *left;
-    std::fprintf(stderr, "%s\n", json.dump().c_str());
+    dprintf(true_standard_error(), "%s\n", json.dump().c_str());
     return;
   }
   std::string line = fmt::format("{}: {}", what_, done);
   if (total) line += fmt::format("/{} frames, {} %", *total, *total > 0 ? done * 100 / *total : 100);
   line += fmt::format(", {:.1f} frames/s", per_second);
   if (left) line += ", " + duration_text(*left) + " left";
-  std::fprintf(stderr, "\r%s\033[K", line.c_str());
+  dprintf(true_standard_error(), "\r%s\033[K", line.c_str());
   visible_ = true;
 }
 
 void ProgressLine::clear() {
-  if (visible_) std::fputs("\r\033[K", stderr);
+  if (visible_) dprintf(true_standard_error(), "\r\033[K");
   visible_ = false;
 }
 

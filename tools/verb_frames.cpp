@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <future>
 
 #include "command_line.h"
 #include "common_options.h"
+#include "frame_batch.h"
 #include "image_frames.h"
 #include "progress_line.h"
 #include "summary_table.h"
@@ -79,85 +79,73 @@ class RowSink {
   std::string text_;
 };
 
-/// What one step of decoding gives.
-struct Decoded {
-  ImageFrames::Outcome outcome = ImageFrames::Outcome::kEnd;
-  uint64_t number = 0;
-  uint64_t skipped = 0;  ///< frames passed over on the way
-  ImageFrame frame;
-  std::string error;
-};
-
-/// Decodes the next frame that was asked for, from `number` on.
-Decoded decode_next(ImageFrames& images, const RunOptions& options, uint64_t number, ImageFrame reuse) {
-  Decoded out;
-  out.frame = std::move(reuse);
-  for (;; ++number, ++out.skipped) {
-    const bool taken = options.takes(number);
-    const bool over = images.count() && number >= *images.count();
-    if (over || (options.frames.last() && number > *options.frames.last() && images.streamed())) return out;
-    if (!taken && !images.streamed()) continue;
-    out.number = number;
-    out.outcome = images.read(number, out.frame, out.error);
-    if (taken || out.outcome != ImageFrames::Outcome::kFrame) return out;
+/// Adds a frame to what the summary shows, and its rows to the sink.
+bool take(const FrameStatistics& statistics, RowSink& sink, RunRecord& record, std::string& error) {
+  ++record.counts.seen;
+  ++record.counts.captured;
+  if (!sink.append(statistics, error)) return false;
+  record.measured_frames += statistics.warmup ? 0 : 1;
+  for (size_t i = 0; i < record.totals.size(); ++i) {
+    const SchemeStatistics& scheme = statistics.schemes[i];
+    if (!statistics.warmup) record.totals[i] += scheme;
+    if (scheme.mismatched_blocks > 0)
+      record.reason = "--verify: " + record.scheme_names[i] + ": frame " + std::to_string(statistics.frame) +
+                      ": " + std::to_string(scheme.mismatched_blocks) + " blocks differ after decoding";
   }
+  if (record.frames.empty()) record.frames.push_back(statistics);
+  return true;
+}
+
+/// Frames from standard input: in order, each once, their number not known before.
+bool process_stream(ImageFrames& images, const FramesOptions& options, RowSink& sink, RunRecord& record,
+                    ProgressLine& progress, std::string& error) {
+  SurfaceEngine engine(options.run.schemes, options.run.model);
+  const auto begin = std::chrono::steady_clock::now();
+  FrameStatistics statistics;
+  ImageFrame frame;
+  const auto last = options.run.frames.last();
+  for (uint64_t number = 0; !last || number <= *last; ++number) {
+    const auto outcome = images.read(number, frame, error);
+    if (outcome != ImageFrames::Outcome::kFrame) return outcome == ImageFrames::Outcome::kEnd;
+    if (!options.run.takes(number)) {
+      ++record.counts.seen;
+      ++record.counts.skipped;
+      continue;
+    }
+    statistics.frame = number;
+    statistics.time_ns = static_cast<uint64_t>(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin)
+            .count());
+    statistics.readback_ns = frame.decode_ns;
+    engine.process({frame.pixels.data(), static_cast<ptrdiff_t>(images.size().width) * 4, images.size().width,
+                    images.size().height, images.format(), ByteOrder::kRgba},
+                   statistics);
+    if (!take(statistics, sink, record, error)) return false;
+    progress.show(number + 1, {});
+  }
+  return true;
 }
 
 /// Runs all frames. Fills `record` with what the summary shows; returns false and one line in `error` on
 /// failure.
 bool process_frames(ImageFrames& images, const FramesOptions& options, RowSink& sink, RunRecord& record,
                     std::string& error) {
-  SurfaceEngine engine(options.run.schemes, options.run.model);
   ProgressLine progress(options.quiet ? ProgressMode::kNever : options.progress, "frames");
   for (const SchemeSpec& spec : options.run.schemes) record.scheme_names.push_back(spec.text);
   record.totals.assign(options.run.schemes.size(), SchemeStatistics{});
   for (SchemeStatistics& total : record.totals) total.burst_bits = options.run.model.burst_bits;
-  const auto begin = std::chrono::steady_clock::now();
-  const FrameSize size = images.size();
-  FrameStatistics statistics;
-  ImageFrame spare;
-  auto next = std::async(std::launch::async, [&] { return decode_next(images, options.run, 0, {}); });
-  for (;;) {
-    Decoded decoded = next.get();
-    record.counts.seen += decoded.skipped;
-    record.counts.skipped += decoded.skipped;
-    if (decoded.outcome == ImageFrames::Outcome::kFailed) {
-      error = decoded.error;
-      return false;
-    }
-    if (decoded.outcome == ImageFrames::Outcome::kEnd) return true;
-    // The next image is decoded while this one is compressed.
-    next = std::async(std::launch::async,
-                      [&images, &options, number = decoded.number + 1, reuse = std::move(spare)]() mutable {
-                        return decode_next(images, options.run, number, std::move(reuse));
-                      });
-    const SurfaceView view{decoded.frame.pixels.data(),
-                           static_cast<ptrdiff_t>(size.width) * 4,
-                           size.width,
-                           size.height,
-                           images.format(),
-                           ByteOrder::kRgba};
-    statistics.frame = decoded.number;
-    statistics.time_ns = static_cast<uint64_t>(
-        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin)
-            .count());
-    statistics.readback_ns = decoded.frame.decode_ns;
-    engine.process(view, statistics);
-    spare = std::move(decoded.frame);
-    ++record.counts.seen;
-    ++record.counts.captured;
-    if (!sink.append(statistics, error)) return false;
-    for (size_t i = 0; i < record.totals.size() && !statistics.warmup; ++i)
-      record.totals[i] += statistics.schemes[i];
-    record.measured_frames += statistics.warmup ? 0 : 1;
-    for (size_t i = 0; i < record.totals.size(); ++i)
-      if (statistics.schemes[i].mismatched_blocks > 0)
-        record.reason =
-            "--verify: " + record.scheme_names[i] + ": frame " + std::to_string(statistics.frame) + ": " +
-            std::to_string(statistics.schemes[i].mismatched_blocks) + " blocks differ after decoding";
-    if (record.frames.empty()) record.frames.push_back(statistics);
-    progress.show(decoded.number + 1, images.count());
-  }
+  if (images.streamed()) return process_stream(images, options, sink, record, progress, error);
+  std::vector<uint64_t> numbers;
+  for (uint64_t number = 0; number < *images.count(); ++number)
+    if (options.run.takes(number)) numbers.push_back(number);
+  record.counts.skipped = *images.count() - numbers.size();
+  record.counts.seen = record.counts.skipped;
+  const auto deliver = [&](const FrameStatistics& statistics) {
+    if (!take(statistics, sink, record, error)) return false;
+    progress.show(record.counts.captured, numbers.size());
+    return true;
+  };
+  return run_frame_batch(images, numbers, options.run, options.jobs, deliver, error);
 }
 
 int parse(int argc, char** argv, FramesOptions& options, std::optional<int>& status) {
@@ -178,7 +166,7 @@ int parse(int argc, char** argv, FramesOptions& options, std::optional<int>& sta
          },
          "Size of raw .rgba frames")
       ->type_name("WxH");
-  app.add_option("-j,--jobs", options.jobs, "Threads (default: 1)")
+  app.add_option("-j,--jobs", options.jobs, "Threads (default: 1); the results are the same for any number")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   app.add_option_function<std::string>(

@@ -1,86 +1,114 @@
-// Frame metrics: one histogram per frame, compared with the one before.
+// Frame metrics: histograms, whole or in parts, and the figures read off them.
 #include "statistics/frame_metrics.h"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
+#include <array>
+#include <bit>
 #include <utility>
 
 #include "dcp/fvc.h"
 
 namespace tilepress {
+namespace {
 
-void ColorHistogram::clear() {
-  std::fill(table_.begin(), table_.end(), Entry{0, 0});
-  used_ = 0;
+/// Histograms of two frames together stay below one raw frame of 4 bytes a pixel.
+size_t largest_table(const PixelPlane& frame) {
+  const size_t pixels = size_t{frame.width()} * frame.height();
+  return std::max<size_t>(1024, std::bit_floor(pixels / 4));
 }
 
-void ColorHistogram::add(uint32_t color, uint32_t count) {
-  size_t at = slot_of(color);
-  while (table_[at].count != 0 && table_[at].color != color) at = (at + 1) & (table_.size() - 1);
-  if (table_[at].count == 0) {
-    table_[at].color = color;
-    if (++used_ * 2 > table_.size()) {
-      table_[at].count = count;
-      return grow();
+/// Partition bits of a colour: not those that choose its slot.
+uint32_t partition_of(uint32_t color) {
+  return static_cast<uint32_t>(ColorHistogram::mix(color) >> 20);
+}
+
+/// Takes runs of a colour together before they go to the large table: most colours come back soon.
+class RunCache {
+ public:
+  explicit RunCache(ColorHistogram& out) : out_(out) {}
+  bool add(uint32_t color, uint32_t count) {
+    ColorHistogram::Entry& entry = entries_[(color * 0x9E3779B1u) >> 23];
+    if (entry.color == color) {
+      entry.count += count;
+      return true;
     }
+    const bool room = entry.count == 0 || out_.add(entry.color, entry.count);
+    entry = {color, count};
+    return room;
   }
-  table_[at].count += count;
-}
-
-uint32_t ColorHistogram::count(uint32_t color) const {
-  for (size_t at = slot_of(color);; at = (at + 1) & (table_.size() - 1))
-    if (table_[at].count == 0 || table_[at].color == color) return table_[at].count;
-}
-
-void ColorHistogram::grow() {
-  std::vector<Entry> old(table_.size() * 2);
-  old.swap(table_);
-  --shift_;
-  for (const Entry& entry : old) {
-    if (entry.count == 0) continue;
-    size_t at = slot_of(entry.color);
-    while (table_[at].count != 0) at = (at + 1) & (table_.size() - 1);
-    table_[at] = entry;
+  bool flush() {
+    bool room = true;
+    for (ColorHistogram::Entry& entry : entries_)
+      if (entry.count != 0) room = room && out_.add(entry.color, entry.count);
+    return room;
   }
-}
 
-void FrameMeter::count_colors(const PixelPlane& frame) {
-  now_.clear();
+ private:
+  ColorHistogram& out_;
+  std::array<ColorHistogram::Entry, 512> entries_{};
+};
+
+}  // namespace
+
+bool FrameMeter::count_colors(const PixelPlane& frame, uint32_t mask, uint32_t part, ColorHistogram& out) {
+  out.clear(largest_table_);
+  RunCache cache(out);
   for (uint32_t y = 0; y < frame.height(); ++y) {
     const uint32_t* row = frame.row(y);
     for (uint32_t x = 0; x < frame.width();) {
       const uint32_t color = row[x], first = x;
       while (++x < frame.width() && row[x] == color) {
       }
-      now_.add(color, x - first);
+      if (mask != 0 && (partition_of(color) & mask) != part) continue;
+      if (!cache.add(color, x - first)) return false;
     }
   }
+  return cache.flush();
+}
+
+void FrameMeter::add_part(bool compare, const Fvc& fvc, uint32_t mask, uint32_t part) {
+  for (const ColorHistogram::Entry& entry : now_.table()) {
+    if (entry.count == 0) continue;
+    profile_.add(entry.count);
+    if (!compare) continue;
+    const uint32_t was = before_.count(entry.color);
+    gained_ += entry.count > was ? entry.count - was : 0;
+  }
+  for (uint32_t slot = 0; slot < fvc.slots(); ++slot)
+    if (fvc.valid(slot) && (partition_of(fvc.color(slot)) & mask) == part)
+      held_true_ += now_.count(fvc.color(slot));
 }
 
 FrameMetrics FrameMeter::measure(const PixelPlane& frame, const PixelPlane* before, const Fvc& fvc) {
+  largest_table_ = largest_table(frame);
+  profile_.clear();
+  gained_ = held_true_ = 0;
   std::swap(now_, before_);
-  count_colors(frame);
+  const bool whole = count_colors(frame, 0, 0, now_) &&
+                     (before == nullptr || before_valid_ || count_colors(*before, 0, 0, before_));
+  before_valid_ = whole;
+  if (whole) add_part(before != nullptr, fvc, 0, 0);
+  for (uint32_t parts = 2; !whole && profile_.colors() == 0; parts *= 2) {
+    for (uint32_t part = 0; part < parts; ++part) {
+      if (!count_colors(frame, parts - 1, part, now_) ||
+          (before != nullptr && !count_colors(*before, parts - 1, part, before_))) {
+        profile_.clear();  // still too many colours: again, with smaller parts
+        gained_ = held_true_ = 0;
+        break;
+      }
+      add_part(before != nullptr, fvc, parts - 1, part);
+    }
+  }
+  profile_.close();
+
   const double pixels = static_cast<double>(frame.width()) * frame.height();
   FrameMetrics metrics;
-  metrics.unique_colors = now_.unique_colors();
-
-  uint64_t differences = 0;  // of the two histograms, both directions
-  counts_.clear();
-  for (const ColorHistogram::Entry& entry : now_.table()) {
-    if (entry.count == 0) continue;
-    counts_.push_back(entry.count);
-    const double share = entry.count / pixels;
-    metrics.entropy -= share * std::log2(share);
-    if (before == nullptr) continue;
-    const uint32_t was = before_.count(entry.color);
-    differences += entry.count > was ? entry.count - was : 0;
-  }
-  metrics.entropy = std::max(metrics.entropy, 0.0);
+  metrics.unique_colors = profile_.colors();
+  metrics.entropy = profile_.entropy(pixels);
   if (before != nullptr) {
     // Both frames have as many pixels, so what some colours gained others lost: half the sum of all
     // differences is the sum of the gains.
-    metrics.color_change = static_cast<double>(differences) / pixels;
+    metrics.color_change = static_cast<double>(gained_) / pixels;
     uint64_t changed = 0;
     for (uint32_t y = 0; y < frame.height(); ++y) {
       const uint32_t *now = frame.row(y), *then = before->row(y);
@@ -88,25 +116,12 @@ FrameMetrics FrameMeter::measure(const PixelPlane& frame, const PixelPlane* befo
     }
     metrics.pixel_change = static_cast<double>(changed) / pixels;
   }
-
-  const auto most_frequent = [&](size_t how_many) {
-    how_many = std::min(how_many, counts_.size());
-    std::nth_element(counts_.begin(), counts_.begin() + static_cast<ptrdiff_t>(how_many), counts_.end(),
-                     std::greater<>());
-    uint64_t sum = 0;
-    for (size_t i = 0; i < how_many; ++i) sum += counts_[i];
-    return sum;
-  };
-  uint64_t held_true = 0, held_colors = 0;
-  for (uint32_t slot = 0; slot < fvc.slots(); ++slot) {
-    if (!fvc.valid(slot)) continue;
-    held_true += now_.count(fvc.color(slot));
-    ++held_colors;
-  }
+  uint64_t held_colors = 0;
+  for (uint32_t slot = 0; slot < fvc.slots(); ++slot) held_colors += fvc.valid(slot);
   metrics.fvc_coverage = fvc.coverage();
   metrics.fvc_relative_coverage =
-      static_cast<double>(held_true) / static_cast<double>(most_frequent(held_colors));
-  metrics.top100_coverage = static_cast<double>(most_frequent(100)) / pixels;
+      static_cast<double>(held_true_) / static_cast<double>(profile_.most_frequent(held_colors));
+  metrics.top100_coverage = static_cast<double>(profile_.most_frequent(100)) / pixels;
   return metrics;
 }
 

@@ -1,9 +1,9 @@
-// Frame metrics: colour histogram and what is read off it (spec §8).
+// Frame metrics: what is read off the colour histograms of a frame and the one before (spec §8).
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "statistics/color_histogram.h"
 #include "tilepress/plane.h"
 #include "tilepress/statistics.h"
 
@@ -11,39 +11,25 @@ namespace tilepress {
 
 class Fvc;
 
-/// Exact counts of every colour of a frame.
-class ColorHistogram {
- public:
-  struct Entry {
-    uint32_t color;
-    uint32_t count;  ///< 0 = empty slot
-  };
-  void clear();
-  void add(uint32_t color, uint32_t count);
-  /// 0 if the colour does not occur.
-  uint32_t count(uint32_t color) const;
-  uint64_t unique_colors() const { return used_; }
-  /// Table with empty slots in between.
-  const std::vector<Entry>& table() const { return table_; }
-
- private:
-  size_t slot_of(uint32_t color) const { return (color * 0x9E3779B97F4A7C15ull) >> shift_; }
-  void grow();
-  std::vector<Entry> table_ = std::vector<Entry>(1024);
-  uint32_t shift_ = 64 - 10;
-  uint64_t used_ = 0;
-};
-
-/// Keeps the histogram of the frame before.
+/// Keeps the histogram of the frame before as long as both fit into half the bytes of a raw frame each.
+/// Frames with more colours are counted in several passes over both frames, each over a part of the colours.
 class FrameMeter {
  public:
   /// Measures `frame`; `before` is the frame before it, or null. `fvc` is the default FVC, fed with `frame`.
   FrameMetrics measure(const PixelPlane& frame, const PixelPlane* before, const Fvc& fvc);
 
  private:
-  void count_colors(const PixelPlane& frame);
+  /// Counts the colours of `frame` whose partition bits, under `mask`, equal `part`. False: no room.
+  bool count_colors(const PixelPlane& frame, uint32_t mask, uint32_t part, ColorHistogram& out);
+  /// Adds what the histograms of one part of the colours tell.
+  void add_part(bool compare, const Fvc& fvc, uint32_t mask, uint32_t part);
+
   ColorHistogram now_, before_;
-  std::vector<uint32_t> counts_;
+  bool before_valid_ = false;  ///< before_ holds the frame measured last
+  size_t largest_table_ = 0;
+  CountProfile profile_;
+  uint64_t gained_ = 0;     ///< pixels that colours gained since the frame before
+  uint64_t held_true_ = 0;  ///< true count of the colours that the FVC holds
 };
 
 }  // namespace tilepress

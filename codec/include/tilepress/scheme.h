@@ -44,6 +44,7 @@ struct SchemeNeeds {
   bool ccd = false;
   bool ras = false;
   bool ras_ycocg = false;
+  bool first_frame = false;  ///< depends on the surface's first frame for ever
 };
 
 /// Encoder side. begin_frame() once per frame, then any block in any order.

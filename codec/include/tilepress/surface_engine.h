@@ -40,8 +40,15 @@ class SurfaceEngine {
   /// order.
   void process(const SurfaceView& frame, FrameStatistics& out, std::span<CompressedSurface> surfaces);
 
-  /// Number of frames processed.
+  /// Number of frames processed, or the last seek() and the frames since.
   uint64_t frames() const;
+
+  /// The frames that frame `ordinal` of the surface depends on, ascending: processed in this order, each after
+  /// a seek() to its number, they leave an engine as if it had seen all frames before `ordinal`. This is how a
+  /// sequence is cut into parts that run at once; what the repeated frames give is thrown away.
+  std::vector<uint64_t> history(uint64_t ordinal, PixelFormat format);
+  /// The next frame is number `ordinal` of the surface.
+  void seek(uint64_t ordinal);
 
  private:
   struct State;

@@ -1,0 +1,66 @@
+// Colour histogram: exact counts of the colours of a frame, in a bounded table.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tilepress {
+
+class ColorHistogram {
+ public:
+  struct Entry {
+    uint32_t color;
+    uint32_t count;  ///< 0 = empty slot
+  };
+
+  /// Empties it. The table will have at most `largest_size` slots (a power of two) and be at most three
+  /// quarters full.
+  void clear(size_t largest_size);
+  /// False: no room for another colour; the counts are not complete any more.
+  bool add(uint32_t color, uint32_t count);
+  /// 0 if the colour does not occur.
+  uint32_t count(uint32_t color) const;
+  /// With empty slots in between.
+  const std::vector<Entry>& table() const { return table_; }
+
+  /// A well mixed word of a colour: the top bits choose the slot, the bottom bits are free for partitions.
+  static uint64_t mix(uint32_t color) { return color * 0x9E3779B97F4A7C15ull; }
+
+ private:
+  size_t slot_of(uint32_t color) const { return mix(color) >> shift_; }
+  bool grow();
+  std::vector<Entry> table_;
+  size_t largest_size_ = 0;
+  uint32_t shift_ = 63;
+  size_t used_ = 0;
+};
+
+/// How often colours occur, without the colours: what entropy and coverage are computed from. The result does
+/// not depend on the order of the additions.
+class CountProfile {
+ public:
+  void clear();
+  void add(uint32_t count) {
+    ++colors_;
+    if (count < kSmall)
+      ++small_[count];
+    else
+      large_.push_back(count);
+  }
+  /// After the last add().
+  void close();
+  uint64_t colors() const { return colors_; }
+  /// Shannon entropy in bits per pixel; the counts add up to `pixels`.
+  double entropy(double pixels) const;
+  /// Sum of the `how_many` largest counts.
+  uint64_t most_frequent(uint64_t how_many) const;
+
+ private:
+  static constexpr uint32_t kSmall = 1024;
+  std::vector<uint32_t> small_ = std::vector<uint32_t>(kSmall);  ///< number of colours by count
+  std::vector<uint32_t> large_;                                  ///< the counts from kSmall on, descending
+  uint64_t colors_ = 0;
+};
+
+}  // namespace tilepress

@@ -1,0 +1,138 @@
+// Frame batch: ranges of frames on threads, results in order.
+#include "frame_batch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+namespace tilepress {
+namespace {
+
+/// Long enough that the frames computed twice hardly count, short enough that rows keep coming.
+constexpr size_t kLongestRange = 64;
+
+class FrameBatch {
+ public:
+  FrameBatch(const ImageFrames& images, const std::vector<uint64_t>& numbers, const RunOptions& options,
+             uint32_t jobs)
+      : images_(images),
+        numbers_(numbers),
+        options_(options),
+        range_(std::clamp<size_t>((numbers.size() + jobs - 1) / jobs, 1, kLongestRange)),
+        ranges_((numbers.size() + range_ - 1) / range_) {}
+
+  bool run(uint32_t jobs, const std::function<bool(const FrameStatistics&)>& deliver, std::string& error) {
+    std::vector<std::jthread> threads;
+    for (uint32_t i = 0; i < std::min<size_t>(jobs, ranges_.size()); ++i)
+      threads.emplace_back([this] { work(); });
+    bool good = true;
+    for (Range& range : ranges_)
+      if (!(good = deliver_range(range, deliver, error))) break;
+    stopping_ = true;
+    return good;
+  }
+
+ private:
+  struct Range {
+    std::deque<FrameStatistics> ready;
+    bool ended = false;
+    std::string error;
+  };
+
+  bool deliver_range(Range& range, const std::function<bool(const FrameStatistics&)>& deliver,
+                     std::string& error) {
+    for (;;) {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return range.ended || !range.ready.empty(); });
+      if (range.ready.empty()) {
+        error = range.error;
+        return error.empty();
+      }
+      const FrameStatistics statistics = std::move(range.ready.front());
+      range.ready.pop_front();
+      lock.unlock();
+      if (!deliver(statistics)) return false;
+    }
+  }
+
+  void work() {
+    Worker worker{images_.another(), {}, {}};
+    for (size_t r; !stopping_ && (r = next_range_++) < ranges_.size();) {
+      std::string error = run_range(worker, r);
+      const std::lock_guard lock(mutex_);
+      ranges_[r].error = std::move(error);
+      ranges_[r].ended = true;
+      changed_.notify_all();
+    }
+  }
+
+  /// What a thread needs for itself.
+  struct Worker {
+    ImageFrames images;
+    ImageFrame frame;
+    FrameStatistics statistics;
+  };
+
+  /// One line on failure, else empty.
+  std::string run_range(Worker& worker, size_t r) {
+    SurfaceEngine engine(options_.schemes, options_.model);
+    const size_t begin = r * range_, end = std::min(begin + range_, numbers_.size());
+    std::string error;
+    for (uint64_t ordinal : engine.history(begin, worker.images.format()))
+      if (!run_frame(worker, engine, ordinal, error)) return error;
+    for (size_t ordinal = begin; ordinal < end && !stopping_; ++ordinal) {
+      if (!run_frame(worker, engine, ordinal, error)) return error;
+      const std::lock_guard lock(mutex_);
+      ranges_[r].ready.push_back(worker.statistics);
+      changed_.notify_all();
+    }
+    return {};
+  }
+
+  bool run_frame(Worker& worker, SurfaceEngine& engine, uint64_t ordinal, std::string& error) {
+    ImageFrames& images = worker.images;
+    ImageFrame& frame = worker.frame;
+    FrameStatistics& statistics = worker.statistics;
+    const uint64_t number = numbers_[ordinal];
+    statistics.time_ns = static_cast<uint64_t>(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin_)
+            .count());
+    if (images.read(number, frame, error) != ImageFrames::Outcome::kFrame) {
+      if (error.empty()) error = "frame " + std::to_string(number) + ": is not there any more";
+      return false;
+    }
+    const SurfaceView view{frame.pixels.data(), static_cast<ptrdiff_t>(images.size().width) * 4,
+                           images.size().width, images.size().height,
+                           images.format(),     ByteOrder::kRgba};
+    statistics.frame = number;
+    statistics.readback_ns = frame.decode_ns;
+    engine.seek(ordinal);
+    engine.process(view, statistics);
+    return true;
+  }
+
+  const ImageFrames& images_;
+  const std::vector<uint64_t>& numbers_;
+  const RunOptions& options_;
+  const size_t range_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::atomic<size_t> next_range_ = 0;
+  std::atomic<bool> stopping_ = false;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Range> ranges_;
+};
+
+}  // namespace
+
+bool run_frame_batch(const ImageFrames& images, const std::vector<uint64_t>& numbers,
+                     const RunOptions& options, uint32_t jobs,
+                     const std::function<bool(const FrameStatistics&)>& deliver, std::string& error) {
+  return FrameBatch(images, numbers, options, std::max(1u, jobs)).run(std::max(1u, jobs), deliver, error);
+}
+
+}  // namespace tilepress
