@@ -11,6 +11,7 @@ parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=(quickstart check)
 
 system=$(mktemp -d /var/tmp/tilepress-bare-XXXXXX)
+chmod 755 "$system"
 clean_up() {
   for mounted in dev/pts dev/shm dev proc sys; do
     mountpoint -q "$system/$mounted" && umount -l "$system/$mounted"

@@ -11,6 +11,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstring>
+#include <fstream>
 
 #include "quiet_standard_error.h"
 
@@ -67,6 +68,21 @@ std::string refusal(const OIIO::ImageSpec& spec) {
     return "has " + std::to_string(spec.nchannels) + " channels, not 1 to 4";
   if (spec.depth > 1) return "is a volume";
   return {};
+}
+
+/// Whether a JPEG or GIF lacks its end: their readers fill in what is missing without a word.
+bool is_torn(const std::string& path, const std::string& format) {
+  if (format != "jpeg" && format != "gif") return false;
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  const std::streamoff tail_size = std::min<std::streamoff>(size, 4096);
+  std::string tail(static_cast<size_t>(std::max<std::streamoff>(tail_size, 0)), '\0');
+  file.seekg(size - tail_size);
+  if (!file.read(tail.data(), tail_size)) return true;
+  // End of image; compressed data never holds these two bytes, and trailing bytes are common.
+  if (format == "jpeg") return tail.rfind("\xFF\xD9") == std::string::npos;
+  while (!tail.empty() && tail.back() == '\0') tail.pop_back();
+  return tail.empty() || tail.back() != ';';
 }
 
 /// Spreads 1 to 4 channels to R,G,B,A in place, from the last pixel backwards. `pixels` has room for 4.
@@ -144,6 +160,10 @@ bool ImageFrames::open_image(const std::string& path, std::string& error) {
   const QuietStandardError quiet;
   const auto input = open_input(path, error);
   if (!input) return false;
+  if (is_torn(path, input->format_name())) {
+    error = path + ": is cut off";
+    return false;
+  }
   for (int subimage = 0; input->seek_subimage(subimage, 0); ++subimage) {
     const OIIO::ImageSpec spec = input->spec(subimage, 0);
     const std::string name = subimage == 0 ? path : path + " image " + std::to_string(subimage);

@@ -29,7 +29,7 @@ std::optional<FrameSet> FrameSet::parse(std::string_view text, std::string& erro
     const std::string_view last_text = dash == std::string_view::npos ? first_text : part.substr(dash + 1);
     Range range{};
     if (!parse_number(first_text, range.first) || !parse_number(last_text, range.last)) {
-      error = "'" + std::string(part) + "' is not a frame or a range of frames";
+      error.assign(1, '\'').append(part).append("' is not a frame or a range of frames");
       return std::nullopt;
     }
     if (range.first > range.last) {

@@ -2,6 +2,7 @@
 """tilepress, its help, `schemes` and `frames` from the command line: rows, exact error lines, exit statuses.
 
 Usage: cli_frames_test.py TILEPRESS GOLDEN_FOLDER [TEST...]"""
+import base64
 import json
 import os
 import struct
@@ -12,6 +13,16 @@ from cli_case import CliCase, GOLDEN, golden, main, read_json, read_rows
 USAGE, FAILED, NOTHING = 2, 1, 3
 # So that the leak sanitizer sees whose leak it is.
 WHOLE_STACKS = {"ASAN_OPTIONS": "fast_unwind_on_malloc=0"}
+
+
+# 8 x 8 gray pixels; 1 x 1 pixel.
+JPEG = base64.b64decode(
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/4QAWRXhpZgAASUkqAAgAAAAAAAAAAAD/2wBDAAEBAQEBAQEBAQEBAQEBAQIBAQEBAQIBAQECAgICAgICAg"
+    "IDAwQDAwMDAwICAwQDAwQEBAQEAgMFBQQEBQQEBAT/wAALCAAIAAgBAREA/8QAHwAAAQUBAQEBAQEAAAAAAAAAAAECAwQFBgcICQoL/8QAtRAA"
+    "AgEDAwIEAwUFBAQAAAF9AQIDAAQRBRIhMUEGE1FhByJxFDKBkaEII0KxwRVS0fAkM2JyggkKFhcYGRolJicoKSo0NTY3ODk6Q0RFRkdISUpTVF"
+    "VWV1hZWmNkZWZnaGlqc3R1dnd4eXqDhIWGh4iJipKTlJWWl5iZmqKjpKWmp6ipqrKztLW2t7i5usLDxMXGx8jJytLT1NXW19jZ2uHi4+Tl5ufo"
+    "6erx8vP09fb3+Pn6/9oACAEBAAA/APxnr//Z")
+GIF = base64.b64decode("R0lGODlhAQABAIAAAAAAAP///yH5BAEAAAAALAAAAAABAAEAAAIBRAA7")
 
 
 def png(width, height, channels, bits, rows):
@@ -167,6 +178,14 @@ class BadInput(CliCase):
             self.write("torn.png", file.read()[:20])
         self.expect(FAILED, "torn.png: Read error: hit end of file", "frames", "-o", "out", golden("odd", 0), "torn.png",
                     env=WHOLE_STACKS)
+        self.assert_absent("out")
+
+    def test_a_jpeg_or_gif_that_is_cut_off_is_refused_not_filled_in(self):
+        for name, content, kept in (("a.jpg", JPEG, -3), ("a.gif", GIF, -1)):
+            self.write(name, content)
+            self.assertEqual(self.run_command("frames", "-q", "-o", "-", name).returncode, 0, name)
+            self.write("torn." + name, content[:kept])
+            self.expect(FAILED, f"torn.{name}: is cut off", "frames", "-o", "out", "torn." + name)
         self.assert_absent("out")
 
     def test_what_is_no_image_is_named(self):
