@@ -5,7 +5,8 @@ namespace tilepress {
 
 std::span<const SchemeInfo> scheme_registry() {
   static const SchemeInfo kSchemes[] = {
-      kDcpInfo, kAdcpInfo, kVdcpInfo, kHuffDcpInfo, kRasInfo, kRedInfo, kHdcpInfo,
+      kDcpInfo,  kAdcpInfo,    kVdcpInfo, kHuffDcpInfo, kRasInfo, kRedInfo,
+      kHdcpInfo, kPaletteInfo, kFbcInfo,  kTeInfo,      kBdiInfo, kBpcInfo,
   };
   return kSchemes;
 }

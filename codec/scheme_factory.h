@@ -21,5 +21,6 @@ std::unique_ptr<BlockDecoder> make_decoder(const SchemeSpec& spec, const FormatT
 
 // One line each in registry.cpp; defined beside their scheme.
 extern const SchemeInfo kDcpInfo, kAdcpInfo, kVdcpInfo, kHuffDcpInfo, kRasInfo, kRedInfo, kHdcpInfo;
+extern const SchemeInfo kPaletteInfo, kFbcInfo, kTeInfo, kBdiInfo, kBpcInfo;
 
 }  // namespace tilepress

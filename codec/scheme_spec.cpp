@@ -4,6 +4,7 @@
 #include <bit>
 #include <charconv>
 
+#include "palette/palette_file.h"
 #include "tilepress/scheme.h"
 
 namespace tilepress {
@@ -40,9 +41,10 @@ bool parse_policy(std::string_view text, FvcPolicy& out) {
 
 constexpr uint32_t kLargest = 0x7FFFFFFF;
 
-/// What values a key takes; empty if the scheme does not know the key.
+/// What values a key takes; empty if the scheme does not know the key. Where more is to be said about a bad
+/// value, `reason` says it.
 std::string_view set_key(SchemeSpec& spec, const SchemeInfo& info, std::string_view key,
-                         std::string_view value, bool& ok) {
+                         std::string_view value, PaletteFiles files, bool& ok, std::string& reason) {
   if (info.takes_fvc_keys) {
     if (key == "fvc") {
       ok = parse_number(value, 2, 1024, spec.fvc.entries) && std::has_single_bit(spec.fvc.entries);
@@ -68,12 +70,27 @@ std::string_view set_key(SchemeSpec& spec, const SchemeInfo& info, std::string_v
       return "2, 3 or burst";
     }
   }
+  if (info.takes_entries_key && key == "entries") {
+    ok = parse_number(value, 2, 1024, spec.entries) && std::has_single_bit(spec.entries);
+    return "a power of two from 2 to 1024";
+  }
+  if (info.takes_palette_keys && key == "from") return ok = value == "first", "first";
+  if (info.takes_palette_keys && key == "file") {
+    ok = files == PaletteFiles::kLeave ? !value.empty()
+                                       : read_palette_file(std::string(value), spec.palette, reason);
+    return "the path of a file";
+  }
+  if (info.takes_order_key && key == "order") {
+    ok = value == "raster" || value == "quad";
+    spec.order = value == "quad" ? LineOrder::kQuad : LineOrder::kRaster;
+    return "raster or quad";
+  }
   return {};
 }
 
 }  // namespace
 
-std::optional<SchemeSpec> parse_scheme(std::string_view text, std::string& error) {
+std::optional<SchemeSpec> parse_scheme(std::string_view text, std::string& error, PaletteFiles files) {
   SchemeSpec spec;
   spec.text = text;
   const size_t colon = text.find(':');
@@ -102,12 +119,17 @@ std::optional<SchemeSpec> parse_scheme(std::string_view text, std::string& error
     if (equals == std::string_view::npos) return fail("'" + std::string(item) + "' is not key=value");
     const std::string key(item.substr(0, equals)), value(item.substr(equals + 1));
     bool ok = false;
-    const std::string_view allowed = set_key(spec, *info, key, value, ok);
+    std::string reason;
+    const std::string_view allowed = set_key(spec, *info, key, value, files, ok, reason);
     if (allowed.empty()) return fail("unknown key '" + key + "'");
-    if (!ok) return fail(key + "=" + value + ": must be " + std::string(allowed));
+    if (!ok)
+      return fail(key + "=" + value + ": " + (reason.empty() ? "must be " + std::string(allowed) : reason));
     if (seen.find("," + key + ",") != std::string::npos) return fail("key '" + key + "' given twice");
     seen += key + ",";
   }
+  if (seen.find(",file,") != std::string::npos &&
+      (seen.find(",from,") != std::string::npos || seen.find(",entries,") != std::string::npos))
+    return fail("from and entries do not go with file");
   if (spec.fvc.ways != 0 && spec.fvc.entries % spec.fvc.ways != 0)
     return fail("ways=" + std::to_string(spec.fvc.ways) + ": must divide the FVC size " +
                 std::to_string(spec.fvc.entries));

@@ -103,7 +103,7 @@ bool read_surface_header(std::istream& in, uint64_t offset, uint64_t file_bytes,
 
   if (format >= std::size(kFormatTraits)) return fail("unknown pixel format " + std::to_string(format));
   out.format = static_cast<PixelFormat>(format);
-  const auto scheme = parse_scheme(spec, error);
+  const auto scheme = parse_scheme(spec, error, PaletteFiles::kLeave);
   if (!scheme) return false;
   out.scheme = *scheme;
   extent.body_offset = offset + kSurfaceHeaderBytes + spec_bytes + kCrcBytes;

@@ -9,6 +9,7 @@
 #include "image_frames.h"
 #include "packed_file.h"
 #include "tilepress/run_options.h"
+#include "tilepress/scheme.h"
 #include "verb.h"
 
 namespace tilepress {
@@ -220,6 +221,9 @@ int verb_pack(int argc, char** argv) {
   if (auto status = parse_command_line(app, argc, argv)) return *status;
   if (options.native && !options.size) return fail(kExitUsage, "--format: raw frames need --size WxH");
   if (options.run.schemes.size() != 1) return fail(kExitUsage, "--scheme: a packed file holds one scheme");
+  const std::string& name = options.run.schemes.front().name;
+  if (find_scheme(name)->needs_frame_before)
+    return fail(kExitUsage, "--scheme " + name + ": its frames are not complete without the frame before");
   return pack(options);
 }
 

@@ -28,6 +28,12 @@ constexpr SchemeKey kSchemeKeys[] = {
     {"coverage", "0 ... 1", "0", "off while the FVC covers less than this", &SchemeInfo::takes_fvc_keys},
     {"ycocg", "0, 1", "0", "transform to Y, Co, Cg, A first", &SchemeInfo::takes_ras_keys},
     {"sizes", "3, 2, burst", "3", "size classes of a block", &SchemeInfo::takes_ras_keys},
+    {"file", "a path", "", "palette from a file of #RRGGBB or #RRGGBBAA lines",
+     &SchemeInfo::takes_palette_keys},
+    {"from", "first", "first", "palette from the surface's first frame", &SchemeInfo::takes_palette_keys},
+    {"entries", "2, 4, 8 ... 1024", "64", "colours of the dictionary", &SchemeInfo::takes_entries_key},
+    {"order", "raster, quad", "raster", "order of a block's pixels in memory lines",
+     &SchemeInfo::takes_order_key},
 };
 
 void print_json() {

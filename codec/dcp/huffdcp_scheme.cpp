@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "dcp/dcp_family.h"
-#include "dcp/huffman.h"
+#include "huffman.h"
 #include "scheme_factory.h"
 
 namespace tilepress {

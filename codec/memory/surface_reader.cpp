@@ -83,6 +83,10 @@ bool SurfaceReader::open(const CompressedSurface& surface, const ReadOptions& op
     error = "unknown scheme '" + surface.scheme.name + "'";
     return false;
   }
+  if (info->needs_frame_before) {
+    error = "a frame of scheme " + surface.scheme.name + " cannot be read without the frame before";
+    return false;
+  }
   ModelOptions model;
   model.tile_side = surface.tile_side;
   model.burst_bits = surface.burst_bits;

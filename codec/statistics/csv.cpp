@@ -46,7 +46,7 @@ std::string frames_csv_header() {
 std::string schemes_csv_header() {
   return "frame,surface,scheme,warmup,blocks,raw_bits,payload_bits,bursts,csb_bits,palette_bits,rate_payload,"
          "rate,"
-         "extra_bits,vdcp_blocks,ras_blocks,checked_blocks,mismatched_blocks\n";
+         "extra_bits,vdcp_blocks,ras_blocks,checked_blocks,mismatched_blocks,rate_with_extra\n";
 }
 
 void append_frames_row(const FrameStatistics& frame, std::string& out) {
@@ -93,6 +93,7 @@ void append_schemes_rows(const FrameStatistics& frame, const std::vector<std::st
     add(out, scheme.ras_blocks);
     add(out, scheme.checked_blocks);
     add(out, scheme.mismatched_blocks);
+    add(out, scheme.rate_with_extra());
     end_row(out);
   }
 }

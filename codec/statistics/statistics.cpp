@@ -15,6 +15,10 @@ double SchemeStatistics::rate() const {
   return ratio(raw_bits, moved_bits());
 }
 
+double SchemeStatistics::rate_with_extra() const {
+  return ratio(raw_bits, moved_bits() + extra_bits);
+}
+
 SchemeStatistics& SchemeStatistics::operator+=(const SchemeStatistics& other) {
   blocks += other.blocks;
   raw_bits += other.raw_bits;

@@ -8,7 +8,7 @@
 #include "dcp/algorithm1.h"
 #include "dcp/ccd.h"
 #include "dcp/fvc.h"
-#include "dcp/huffman.h"
+#include "huffman.h"
 
 using namespace tilepress;
 

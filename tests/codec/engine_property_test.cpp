@@ -54,7 +54,9 @@ std::vector<SchemeSpec> any_schemes() {
   for (const char* name : {"dcp", "adcp", "vdcp", "huffdcp", "hdcp"})
     schemes.push_back(spec(std::string(name) + ":" + keys));
   schemes.push_back(spec("vdcp:" + fvc_keys()));
-  for (const char* text : {"ras:ycocg=1", "ras:sizes=2", "ras:sizes=burst", "ras:ycocg=1,sizes=burst"})
+  for (const char* text : {"ras:ycocg=1", "ras:sizes=2", "ras:sizes=burst", "ras:ycocg=1,sizes=burst",
+                           "palette", "palette:entries=8", "fbc", "fbc:entries=512", "te", "bdi",
+                           "bdi:order=quad", "bpc", "bpc:order=quad"})
     schemes.push_back(spec(text));
   return schemes;
 }
@@ -121,6 +123,7 @@ class Comparison {
       exact(out, "bursts" + at, scheme.bursts, figures.bursts);
       exact(out, "csb_bits" + at, scheme.csb_bits, figures.csb_bits);
       exact(out, "palette_bits" + at, scheme.palette_bits, figures.palette_bits);
+      exact(out, "extra_bits" + at, scheme.extra_bits, figures.extra_bits);
     }
     const reference::Metrics metrics = meter_.frame(picture);
     exact(out, "unique_colors", actual.metrics.unique_colors, metrics.unique_colors);
@@ -170,7 +173,12 @@ TEST(EngineOnAwkwardSurfaces, EqualsTheReferenceModel) {
                          "hdcp:coverage=0.9,period=2",
                          "adcp:sample=3",
                          "ras:sizes=burst",
-                         "ras:ycocg=1"};
+                         "ras:ycocg=1",
+                         "palette",
+                         "fbc",
+                         "te",
+                         "bdi",
+                         "bpc"};
   Trial trial{};
   trial.burst_bits = 128;
   trial.format = PixelFormat::kRgba8;

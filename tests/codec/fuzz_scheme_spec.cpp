@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
   using namespace tilepress;
   const std::string_view text(reinterpret_cast<const char*>(bytes), size);
   std::string error;
-  const auto spec = parse_scheme(text, error);
+  const auto spec = parse_scheme(text, error, PaletteFiles::kLeave);  // opens no file
   if (!spec) {
     if (error.find("scheme '") != 0) __builtin_trap();
     return 0;
@@ -20,5 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
   if (fvc.entries < 2 || fvc.entries > 1024 || (fvc.entries & (fvc.entries - 1)) != 0) __builtin_trap();
   if (fvc.ways_per_set() == 0 || fvc.entries % fvc.ways_per_set() != 0) __builtin_trap();
   if (fvc.sample == 0 || fvc.period == 0 || !(spec->coverage >= 0 && spec->coverage <= 1)) __builtin_trap();
+  if (spec->entries < 2 || spec->entries > 1024 || (spec->entries & (spec->entries - 1)) != 0)
+    __builtin_trap();
   return 0;
 }

@@ -35,7 +35,7 @@ struct Place {
 
 /// What one scheme makes of one frame.
 struct Figures {
-  uint64_t payload_bits = 0, bursts = 0, csb_bits = 0, palette_bits = 0;
+  uint64_t payload_bits = 0, bursts = 0, csb_bits = 0, palette_bits = 0, extra_bits = 0;
   bool operator==(const Figures&) const = default;
 };
 
@@ -78,6 +78,9 @@ class Scheme {
   uint32_t block_bits(const std::vector<uint32_t>& block) const;
   uint32_t vdcp_bits(const std::vector<uint32_t>& block) const;
   uint32_t ras_bits(const std::vector<uint32_t>& block) const;
+  uint32_t dictionary_bits(const std::vector<uint32_t>& block) const;
+  /// palette, fbc, te, bdi, bpc.
+  Figures further_frame(const Picture& picture);
   SchemeSpec spec_;
   PixelFormat format_;
   uint32_t tile_side_, burst_bits_;
@@ -86,6 +89,7 @@ class Scheme {
   uint32_t width_ = 0;                  ///< of an index, dcp and adcp
   std::vector<uint32_t> code_lengths_;  ///< huffdcp
   bool off_ = false;                    ///< by the coverage threshold
+  Picture before_;                      ///< te
 };
 
 /// The frame metrics of a surface.
@@ -106,5 +110,9 @@ Collection collect(const SchemeSpec& spec, PixelFormat format, const Picture& pi
 std::vector<uint32_t> huffman_lengths(const std::vector<uint64_t>& counts);
 /// RAS stream of a block of 64 words in raster order, not rounded.
 uint32_t ras_stream(const std::vector<uint32_t>& block, PixelFormat format, bool ycocg);
+
+/// Bits of a block of 64 words in raster order.
+uint32_t bdi_bits(const std::vector<uint32_t>& block, PixelFormat format, tilepress::LineOrder order);
+uint32_t bpc_bits(const std::vector<uint32_t>& block, PixelFormat format, tilepress::LineOrder order);
 
 }  // namespace reference

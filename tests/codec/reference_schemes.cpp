@@ -210,6 +210,8 @@ uint32_t Scheme::block_bits(const std::vector<uint32_t>& block) const {
 }
 
 Figures Scheme::frame(const Picture& picture) {
+  for (const char* name : {"palette", "fbc", "te", "bdi", "bpc"})
+    if (spec_.name == name) return further_frame(picture);
   const uint32_t bits = pixel_bits(format_), m = rounded_up_log2(spec_.fvc.entries);
   const bool palette = spec_.name != "red" && spec_.name != "ras";
   off_ = palette && dictionary_.exists && dictionary_.coverage < spec_.coverage;

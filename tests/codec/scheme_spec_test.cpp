@@ -64,6 +64,15 @@ TEST(SchemeSpec, TakesTheKeysOfRas) {
   EXPECT_EQ(good("ras:sizes=burst,ycocg=1").ras_sizes, RasSizes::kBurst);
 }
 
+TEST(SchemeSpec, TakesTheKeysOfTheFurtherSchemes) {
+  EXPECT_EQ(good("palette").entries, 64u);
+  EXPECT_EQ(good("palette:from=first,entries=16").entries, 16u);
+  EXPECT_EQ(good("fbc:entries=1024").entries, 1024u);
+  EXPECT_EQ(good("bdi").order, LineOrder::kRaster);
+  EXPECT_EQ(good("bdi:order=quad").order, LineOrder::kQuad);
+  EXPECT_EQ(good("bpc:order=raster").order, LineOrder::kRaster);
+}
+
 TEST(SchemeSpec, AFullyAssociativeFvcIsOneConfigurationHoweverItIsWritten) {
   EXPECT_EQ(good("dcp:ways=64").fvc, good("dcp").fvc);
   EXPECT_FALSE(good("dcp:ways=32").fvc == good("dcp").fvc);
@@ -102,6 +111,13 @@ TEST(SchemeSpec, ErrorsNameTheFault) {
       {"vdcp:coverage=nan", "coverage=nan: must be"},
       {"vdcp:fvc=64,fvc=64", "key 'fvc' given twice"},
       {"ras:ycocg=2", "ycocg=2: must be 0 or 1"},
+      {"palette:entries=3", "entries=3: must be a power of two from 2 to 1024"},
+      {"palette:from=last", "from=last: must be first"},
+      {"palette:file=", "file=: no such file"},
+      {"palette:order=quad", "unknown key 'order'"},
+      {"fbc:from=first", "unknown key 'from'"},
+      {"te:fvc=64", "unknown key 'fvc'"},
+      {"bdi:order=tile", "order=tile: must be raster or quad"},
       {"ras:sizes=4", "sizes=4: must be 2, 3 or burst"},
   };
   for (const auto& [text, named] : faults) {

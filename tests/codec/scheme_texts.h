@@ -4,8 +4,29 @@
 namespace harness {
 
 inline constexpr const char* kSchemeTexts[] = {
-    "dcp",  "dcp:fvc=2",   "adcp", "vdcp",        "vdcp:fvc=1024", "huffdcp",         "huffdcp:fvc=256",
-    "hdcp", "hdcp:fvc=16", "ras",  "ras:ycocg=1", "ras:sizes=2",   "ras:sizes=burst", "red",
+    "dcp",
+    "dcp:fvc=2",
+    "adcp",
+    "vdcp",
+    "vdcp:fvc=1024",
+    "huffdcp",
+    "huffdcp:fvc=256",
+    "hdcp",
+    "hdcp:fvc=16",
+    "ras",
+    "ras:ycocg=1",
+    "ras:sizes=2",
+    "ras:sizes=burst",
+    "red",
+    "palette",
+    "palette:entries=2",
+    "fbc",
+    "fbc:entries=1024",
+    "te",
+    "bdi",
+    "bdi:order=quad",
+    "bpc",
+    "bpc:order=quad",
 };
 
 }  // namespace harness

@@ -76,6 +76,11 @@ class BlockDecoder {
   virtual bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) = 0;
   /// Restores one block. False: the bits are not what any encoder writes.
   virtual bool decode(BitReader& csb, BitReader& payload, Block& out) const = 0;
+  /// The same for a block whose place matters: schemes with needs_frame_before keep what they restored and
+  /// are called once per block and frame.
+  virtual bool decode_at(uint32_t /*bx*/, uint32_t /*by*/, BitReader& csb, BitReader& payload, Block& out) {
+    return decode(csb, payload, out);
+  }
 };
 
 /// One line of the registry: everything users are told about a scheme comes from here.
@@ -88,6 +93,10 @@ struct SchemeInfo {
   bool takes_ras_keys;  ///< ycocg, sizes
   std::unique_ptr<BlockEncoder> (*make_encoder)(const SchemeSpec&, const FormatTraits&, const ModelOptions&);
   std::unique_ptr<BlockDecoder> (*make_decoder)(const SchemeSpec&, const FormatTraits&, const ModelOptions&);
+  bool takes_entries_key = false;   ///< entries
+  bool takes_palette_keys = false;  ///< file, from
+  bool takes_order_key = false;     ///< order
+  bool needs_frame_before = false;  ///< a frame's bits alone do not restore it: use decode_at
 };
 
 std::span<const SchemeInfo> scheme_registry();

@@ -27,13 +27,13 @@ struct SchemeStatistics {
   uint64_t raw_bits = 0;
   uint64_t payload_bits = 0;
   uint64_t bursts = 0;
-  uint64_t burst_bits = 128;   ///< size of one burst; equal over a run
+  uint64_t burst_bits = 128;  ///< size of one burst; equal over a run
   uint64_t csb_bits = 0;
   uint64_t palette_bits = 0;
-  uint64_t extra_bits = 0;     ///< further traffic that a scheme causes (a second pass, checksums)
-  uint64_t vdcp_blocks = 0;    ///< hdcp only: blocks coded by VDCP
-  uint64_t ras_blocks = 0;     ///< hdcp only: blocks coded by RAS
-  uint64_t checked_blocks = 0; ///< --verify: blocks encoded, decoded and compared
+  uint64_t extra_bits = 0;      ///< further traffic that a scheme causes (a second pass, checksums)
+  uint64_t vdcp_blocks = 0;     ///< hdcp only: blocks coded by VDCP
+  uint64_t ras_blocks = 0;      ///< hdcp only: blocks coded by RAS
+  uint64_t checked_blocks = 0;  ///< --verify: blocks encoded, decoded and compared
   uint64_t mismatched_blocks = 0;
 
   uint64_t moved_bits() const { return bursts * burst_bits + csb_bits + palette_bits; }
@@ -41,6 +41,8 @@ struct SchemeStatistics {
   double rate_payload() const;
   /// raw / moved: what DRAM moves.
   double rate() const;
+  /// raw / (moved + extra): equal to rate() for schemes without further traffic.
+  double rate_with_extra() const;
   SchemeStatistics& operator+=(const SchemeStatistics& other);
 };
 

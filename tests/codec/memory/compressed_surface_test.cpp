@@ -8,11 +8,12 @@
 namespace tilepress {
 namespace {
 
-/// Every scheme of the registry, and the options that change what memory holds.
+/// Every scheme of the registry whose frames are complete, and the options that change what memory holds.
 std::vector<std::string> all_schemes() {
   std::vector<std::string> schemes;
   std::string error;
-  for (const SchemeInfo& info : scheme_registry()) schemes.push_back(info.name);
+  for (const SchemeInfo& info : scheme_registry())
+    if (!info.needs_frame_before) schemes.push_back(info.name);
   for (const char* text :
        {"vdcp:fvc=2", "vdcp:fvc=1024", "dcp:fvc=16,ways=4", "hdcp:coverage=0.99", "dcp:coverage=1",
         "ras:ycocg=1", "ras:sizes=2", "ras:sizes=burst", "huffdcp:fvc=256"})

@@ -1,4 +1,4 @@
-// Huffman codes over a CCD: lengths by the rule of spec §5, canonical codes, decoding bit by bit.
+// Huffman codes over a dictionary: lengths by the rule of spec §5, canonical codes, decoding bit by bit.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ namespace tilepress {
 /// least the d-th Fibonacci number). A stored length takes 6 bits.
 constexpr uint32_t kMaxHuffmanLength = 47;
 
-/// Code lengths by CCD index. Joins repeatedly the two nodes of smallest (count, id), the new node taking the
-/// next id; one colour alone gets 1 bit.
+/// Code lengths by dictionary index. Joins repeatedly the two nodes of smallest (count, id), the new node
+/// taking the next id; one colour alone gets 1 bit.
 std::vector<uint8_t> huffman_lengths(std::span<const uint32_t> counts);
 
-/// Canonical code: shorter codes first, equal lengths by CCD index.
+/// Canonical code: shorter codes first, equal lengths by index.
 class CanonicalCode {
  public:
   /// False if the lengths do not form a prefix code (or a length is over kMaxHuffmanLength).

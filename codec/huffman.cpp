@@ -1,5 +1,5 @@
-// Huffman codes over a CCD.
-#include "dcp/huffman.h"
+// Huffman codes over a dictionary.
+#include "huffman.h"
 
 #include <algorithm>
 #include <functional>
