@@ -2,37 +2,39 @@
 #include "huffman.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <functional>
-#include <queue>
 #include <utility>
 
 namespace tilepress {
 
-std::vector<uint8_t> huffman_lengths(std::span<const uint32_t> counts) {
+void huffman_lengths(std::span<const uint32_t> counts, std::vector<uint8_t>& lengths) {
+  constexpr size_t kMaxLeaves = 1024;
   const size_t leaves = counts.size();
-  std::vector<uint8_t> lengths(leaves, 0);
-  if (leaves == 0) return lengths;
-  if (leaves == 1) {
-    lengths[0] = 1;
-    return lengths;
-  }
+  assert(leaves <= kMaxLeaves);
+  lengths.assign(leaves, 1);
+  if (leaves <= 1) return;
   using Node = std::pair<uint64_t, uint32_t>;  // count, id
-  std::priority_queue<Node, std::vector<Node>, std::greater<>> open;
-  for (uint32_t id = 0; id < leaves; ++id) open.push({counts[id], id});
-  std::vector<uint32_t> parent(2 * leaves - 1, 0);
-  uint32_t next_id = static_cast<uint32_t>(leaves);
-  while (open.size() > 1) {
-    const Node a = open.top();
-    open.pop();
-    const Node b = open.top();
-    open.pop();
-    parent[a.second] = parent[b.second] = next_id;
-    open.push({a.first + b.first, next_id++});
+  std::array<Node, kMaxLeaves> open;           // a heap, the smallest node on top
+  for (uint32_t id = 0; id < leaves; ++id) open[id] = {counts[id], id};
+  auto end = open.begin() + static_cast<ptrdiff_t>(leaves);
+  std::make_heap(open.begin(), end, std::greater<>());
+  std::array<uint16_t, 2 * kMaxLeaves> parent;
+  auto next_id = static_cast<uint32_t>(leaves);
+  while (end - open.begin() > 1) {
+    std::pop_heap(open.begin(), end--, std::greater<>());
+    const Node a = *end;
+    std::pop_heap(open.begin(), end, std::greater<>());
+    Node& b = end[-1];
+    parent[a.second] = parent[b.second] = static_cast<uint16_t>(next_id);
+    b = {a.first + b.first, next_id++};
+    std::push_heap(open.begin(), end, std::greater<>());
   }
-  std::vector<uint8_t> depth(next_id, 0);  // parents have larger ids than their children
+  std::array<uint8_t, 2 * kMaxLeaves> depth;
+  depth[next_id - 1] = 0;  // the root; parents have larger ids than their children
   for (uint32_t id = next_id - 1; id-- > 0;) depth[id] = static_cast<uint8_t>(depth[parent[id]] + 1);
   std::copy_n(depth.begin(), leaves, lengths.begin());
-  return lengths;
 }
 
 bool CanonicalCode::assign(std::span<const uint8_t> lengths) {

@@ -14,9 +14,14 @@ namespace tilepress {
 /// least the d-th Fibonacci number). A stored length takes 6 bits.
 constexpr uint32_t kMaxHuffmanLength = 47;
 
-/// Code lengths by dictionary index. Joins repeatedly the two nodes of smallest (count, id), the new node
-/// taking the next id; one colour alone gets 1 bit.
-std::vector<uint8_t> huffman_lengths(std::span<const uint32_t> counts);
+/// Code lengths by index: one per count, at most 1024 of them. Joins repeatedly the two nodes of smallest
+/// (count, id), the new node taking the next id; one symbol alone gets 1 bit.
+void huffman_lengths(std::span<const uint32_t> counts, std::vector<uint8_t>& lengths);
+inline std::vector<uint8_t> huffman_lengths(std::span<const uint32_t> counts) {
+  std::vector<uint8_t> lengths;
+  huffman_lengths(counts, lengths);
+  return lengths;
+}
 
 /// Canonical code: shorter codes first, equal lengths by index.
 class CanonicalCode {

@@ -1,9 +1,13 @@
 // The tilepress command: finds the verb in one table and hands over.
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "command_line.h"
+#include "tilepress/simd.h"
 #include "verb.h"
 
 namespace tilepress {
@@ -58,7 +62,17 @@ int show_help() {
   return kExitDone;
 }
 
+/// TILEPRESS_SIMD=TARGET: for comparing instruction sets. The results are the same.
+std::optional<int> force_simd() {
+  const char* name = std::getenv("TILEPRESS_SIMD");
+  if (name == nullptr || *name == '\0' || force_simd_target(name)) return {};
+  std::string known;
+  for (std::string_view target : simd_targets()) known += (known.empty() ? "" : ", ") + std::string(target);
+  return fail(kExitUsage, std::string("TILEPRESS_SIMD=") + name + ": this machine has " + known);
+}
+
 int dispatch(int argc, char** argv) {
+  if (const auto status = force_simd()) return *status;
   if (argc < 2) return fail(kExitUsage, "no verb given (see tilepress help)");
   const std::string word = argv[1];
   if (word == "--version" || word == "version") {

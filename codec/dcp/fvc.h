@@ -34,12 +34,12 @@ class Fvc {
     }
   }
 
-  /// Takes the state of a faster collector: colours and counts by slot (count 0 = empty).
-  void assign(const std::vector<uint32_t>& colors, const std::vector<uint32_t>& counts, uint64_t samples) {
-    colors_ = colors;
-    counts_ = counts;
-    samples_ = samples;
+  /// Takes over the state of a faster collector: a slot (count 0 = empty), and the pixels that entered.
+  void set_slot(uint32_t slot, uint32_t color, uint32_t count) {
+    colors_[slot] = color;
+    counts_[slot] = count;
   }
+  void set_samples(uint64_t samples) { samples_ = samples; }
 
   const FvcConfig& config() const { return config_; }
   uint32_t slots() const { return config_.entries; }

@@ -22,7 +22,9 @@ class HuffDcpEncoder final : public DcpFamilyEncoder {
 
   void begin_frame(const FrameContext& frame) override {
     DcpFamilyEncoder::begin_frame(frame);
-    if (active()) code_.assign(huffman_lengths(ccd_->counts));
+    if (!active()) return;
+    huffman_lengths(ccd_->counts, lengths_);
+    code_.assign(lengths_);
   }
   uint32_t csb_bits() const override { return off_ ? 0 : kSubBlocks; }
   uint64_t palette_bits() const override {
@@ -66,6 +68,7 @@ class HuffDcpEncoder final : public DcpFamilyEncoder {
     }
     return std::min(bits, raw_sub_block_bits());
   }
+  std::vector<uint8_t> lengths_;
   CanonicalCode code_;
 };
 

@@ -187,13 +187,15 @@ void LfcCollector::see_block(const uint32_t* pixels) {
 }
 
 void LfcCollector::store_to(Fvc& fvc) const {
-  std::vector<uint32_t> colors(entries_), counts(entries_);
-  for (uint32_t slot = 0; slot < used_; ++slot) {
-    const bool tail = full() && slot == tail_slot_;
-    colors[slot] = tail ? tail_color_ : slot_colors_[slot];
-    counts[slot] = tail ? tail_count_ : count_at(slot_places_[slot]);
+  for (uint32_t slot = 0; slot < entries_; ++slot) {
+    if (slot >= used_)
+      fvc.set_slot(slot, 0, 0);
+    else if (full() && slot == tail_slot_)
+      fvc.set_slot(slot, tail_color_, tail_count_);
+    else
+      fvc.set_slot(slot, slot_colors_[slot], count_at(slot_places_[slot]));
   }
-  fvc.assign(colors, counts, samples_);
+  fvc.set_samples(samples_);
 }
 
 }  // namespace tilepress

@@ -12,6 +12,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "tilepress/simd.h"
+
 namespace tilepress {
 namespace {
 
@@ -46,6 +48,7 @@ constexpr uint32_t kNoWindow = ~0u;
 Capture::Capture(const TilepressHost& host) : host_(host), pid_(getpid()) {
   std::string error;
   enabled_ = from_environment(options_, error) && !options_.output.empty();
+  if (const char* target = std::getenv("TILEPRESS_SIMD")) force_simd_target(target);  // unknown: the best one
   log_ = std::make_unique<ShimLog>(options_.log_file, options_.log_level);
   if (!error.empty()) log_->write(LogLevel::kError, error);
   start_ns_ = now_ns();
