@@ -24,6 +24,8 @@ constexpr Verb kVerbs[] = {
     {"compare", "two runs side by side, with an exit status for regressions", verb_compare},
     {"pack", "write images as compressed surfaces to a file", verb_pack},
     {"unpack", "restore the images of a packed file, or read a part and count bursts", verb_unpack},
+    {"compose", "account the reads of several packed surfaces shown at once", verb_compose},
+    {"cost", "storage, area, speed and energy of the structures", verb_cost},
     {"schemes", "list the schemes and their options", verb_schemes},
     {"doctor", "tell what this machine offers and what is missing", verb_doctor},
 };

@@ -26,6 +26,15 @@ uint32_t crc_of(const void* bytes, size_t size, uint32_t crc = 0) {
   return static_cast<uint32_t>(crc32_z(crc, static_cast<const Bytef*>(bytes), size));
 }
 
+/// Fuzzing goes past the checksums: random bytes would get no further.
+bool same_crc(uint64_t stored, uint32_t computed) {
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+  return stored == computed || true;
+#else
+  return stored == computed;
+#endif
+}
+
 std::string file_header(uint32_t count) {
   std::string header(reinterpret_cast<const char*>(kMagic), sizeof kMagic);
   put(header, kPackedFileVersion, 4);
@@ -98,11 +107,15 @@ bool read_surface_header(std::istream& in, uint64_t offset, uint64_t file_bytes,
     return fail("cannot be read");
   const std::string crc_field = spec.substr(spec_bytes);
   spec.resize(spec_bytes);
-  if (Fields(crc_field).take(4) != crc_of(spec.data(), spec.size(), crc_of(bytes.data(), bytes.size())))
+  if (!same_crc(Fields(crc_field).take(4),
+                crc_of(spec.data(), spec.size(), crc_of(bytes.data(), bytes.size()))))
     return fail("damaged surface header (checksum)");
 
   if (format >= std::size(kFormatTraits)) return fail("unknown pixel format " + std::to_string(format));
   out.format = static_cast<PixelFormat>(format);
+  // A palette's file name may hold spaces and UTF-8; what moves a terminal's cursor may not be in it.
+  if (std::any_of(spec.begin(), spec.end(), [](unsigned char c) { return c < ' ' || c == 0x7F; }))
+    return fail("a scheme specification that is no text");
   const auto scheme = parse_scheme(spec, error, PaletteFiles::kLeave);
   if (!scheme) return false;
   out.scheme = *scheme;
@@ -189,7 +202,7 @@ bool PackedFileReader::open(std::istream& in, std::string& error) {
   fields.take(8);
   const auto version = static_cast<uint32_t>(fields.take(4));
   const auto count = static_cast<uint32_t>(fields.take(4));
-  if (fields.take(4) != crc_of(header.data(), kFileHeaderBytes - kCrcBytes))
+  if (!same_crc(fields.take(4), crc_of(header.data(), kFileHeaderBytes - kCrcBytes)))
     return fail("damaged file header (checksum)");
   if (version != kPackedFileVersion)
     return fail("version " + std::to_string(version) + ", this tilepress reads version " +
@@ -211,7 +224,7 @@ bool PackedFileReader::open(std::istream& in, std::string& error) {
       crc = crc_of(piece.data(), piece.size(), crc);
     }
     if (!read_bytes(in, extent.body_offset + extent.body_bytes, kCrcBytes, piece) ||
-        Fields(piece).take(4) != crc)
+        !same_crc(Fields(piece).take(4), crc))
       return fail(where + "damaged (checksum)");
     offsets_.push_back(offset);
     offset = extent.next();

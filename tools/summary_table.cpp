@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "tilepress/cost_model.h"
+
 namespace tilepress {
 namespace {
 
@@ -45,16 +47,17 @@ std::string summary_table(const RunRecord& run, const std::string& title) {
   }
   size_t width = 6;
   for (const std::string& name : run.scheme_names) width = std::max(width, name.size());
-  out += fmt::format("  {:<{}}  {:>9}  {:>12}  {:>8}  {:>7}  {:>9}\n", "scheme", width, "rate",
-                     "rate_payload", "bursts", "csb", "palette");
+  out += fmt::format("  {:<{}}  {:>9}  {:>12}  {:>8}  {:>7}  {:>9}  {:>8}\n", "scheme", width, "rate",
+                     "rate_payload", "bursts", "csb", "palette", "saving");
   uint64_t checked = 0, mismatched = 0;
   for (size_t i = 0; i < run.scheme_names.size(); ++i) {
     const SchemeStatistics& sum = run.totals[i];
     const uint64_t moved = sum.moved_bits();
-    out += fmt::format("  {:<{}}  {:>9.4f}  {:>12.4f}  {:>6.2f} %  {:>5.2f} %  {:>7.3f} %\n",
-                       run.scheme_names[i], width, sum.rate(), sum.rate_payload(),
-                       percent(sum.bursts * sum.burst_bits, moved), percent(sum.csb_bits, moved),
-                       percent(sum.palette_bits, moved));
+    out +=
+        fmt::format("  {:<{}}  {:>9.4f}  {:>12.4f}  {:>6.2f} %  {:>5.2f} %  {:>7.3f} %  {:>6.1f} %\n",
+                    run.scheme_names[i], width, sum.rate(), sum.rate_payload(),
+                    percent(sum.bursts * sum.burst_bits, moved), percent(sum.csb_bits, moved),
+                    percent(sum.palette_bits, moved), sum.rate() > 0 ? 100 * energy_saving(sum.rate()) : 0.0);
     checked += sum.checked_blocks;
     mismatched += sum.mismatched_blocks;
   }

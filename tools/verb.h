@@ -12,6 +12,8 @@ struct Verb {
 
 int verb_bench(int argc, char** argv);
 int verb_compare(int argc, char** argv);
+int verb_compose(int argc, char** argv);
+int verb_cost(int argc, char** argv);
 int verb_doctor(int argc, char** argv);
 int verb_frames(int argc, char** argv);
 int verb_info(int argc, char** argv);

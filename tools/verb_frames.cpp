@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "cdf_file.h"
 #include "command_line.h"
 #include "common_options.h"
 #include "frame_batch.h"
@@ -32,8 +33,11 @@ struct FramesOptions {
   std::optional<FrameSize> size;
   ProgressMode progress = ProgressMode::kAuto;
   uint32_t jobs = 1;
+  std::string cdf_path;  ///< empty = none
+  FrameSet cdf_frames;
   bool force = false;
   bool quiet = false;
+  bool wants_cdf(uint64_t frame) const { return !cdf_path.empty() && cdf_frames.contains(frame); }
   bool to_stdout() const { return run.output == "-"; }
 };
 
@@ -96,9 +100,15 @@ bool take(const FrameStatistics& statistics, RowSink& sink, RunRecord& record, s
   return true;
 }
 
+SurfaceView view_of(const ImageFrames& images, const ImageFrame& frame) {
+  return {frame.pixels.data(), static_cast<ptrdiff_t>(images.size().width) * 4,
+          images.size().width, images.size().height,
+          images.format(),     ByteOrder::kRgba};
+}
+
 /// Frames from standard input: in order, each once, their number not known before.
-bool process_stream(ImageFrames& images, const FramesOptions& options, RowSink& sink, RunRecord& record,
-                    ProgressLine& progress, std::string& error) {
+bool process_stream(ImageFrames& images, const FramesOptions& options, RowSink& sink, CdfFile& cdf,
+                    RunRecord& record, ProgressLine& progress, std::string& error) {
   SurfaceEngine engine(options.run.schemes, options.run.model);
   const auto begin = std::chrono::steady_clock::now();
   FrameStatistics statistics;
@@ -117,9 +127,9 @@ bool process_stream(ImageFrames& images, const FramesOptions& options, RowSink& 
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin)
             .count());
     statistics.readback_ns = frame.decode_ns;
-    engine.process({frame.pixels.data(), static_cast<ptrdiff_t>(images.size().width) * 4, images.size().width,
-                    images.size().height, images.format(), ByteOrder::kRgba},
-                   statistics);
+    const SurfaceView view = view_of(images, frame);
+    engine.process(view, statistics);
+    if (options.wants_cdf(number) && !cdf.append(statistics, view, error)) return false;
     if (!take(statistics, sink, record, error)) return false;
     progress.show(number + 1, {});
   }
@@ -128,20 +138,27 @@ bool process_stream(ImageFrames& images, const FramesOptions& options, RowSink& 
 
 /// Runs all frames. Fills `record` with what the summary shows; returns false and one line in `error` on
 /// failure.
-bool process_frames(ImageFrames& images, const FramesOptions& options, RowSink& sink, RunRecord& record,
-                    std::string& error) {
+bool process_frames(ImageFrames& images, const FramesOptions& options, RowSink& sink, CdfFile& cdf,
+                    RunRecord& record, std::string& error) {
   ProgressLine progress(options.quiet ? ProgressMode::kNever : options.progress, "frames");
   for (const SchemeSpec& spec : options.run.schemes) record.scheme_names.push_back(spec.text);
   record.totals.assign(options.run.schemes.size(), SchemeStatistics{});
   for (SchemeStatistics& total : record.totals) total.burst_bits = options.run.model.burst_bits;
-  if (images.streamed()) return process_stream(images, options, sink, record, progress, error);
+  if (images.streamed()) return process_stream(images, options, sink, cdf, record, progress, error);
   std::vector<uint64_t> numbers;
   for (uint64_t number = 0; number < *images.count(); ++number)
     if (options.run.takes(number)) numbers.push_back(number);
   record.counts.skipped = *images.count() - numbers.size();
   record.counts.seen = record.counts.skipped;
+  ImageFrames cdf_images = images.another();
+  ImageFrame cdf_frame;
   const auto deliver = [&](const FrameStatistics& statistics) {
     if (!take(statistics, sink, record, error)) return false;
+    // The batch keeps no pixels: the few frames whose colours are asked for are decoded once more.
+    if (options.wants_cdf(statistics.frame) &&
+        (cdf_images.read(statistics.frame, cdf_frame, error) != ImageFrames::Outcome::kFrame ||
+         !cdf.append(statistics, view_of(cdf_images, cdf_frame), error)))
+      return false;
     progress.show(record.counts.captured, numbers.size());
     return true;
   };
@@ -178,6 +195,7 @@ int parse(int argc, char** argv, FramesOptions& options, std::optional<int>& sta
          },
          "Progress on standard error (default: auto, a line on a terminal)")
       ->type_name("auto|never|json");
+  add_cdf_options(app, options.cdf_path, options.cdf_frames);
   app.add_flag("--force", options.force, "Replace the run that the folder holds");
   app.add_flag("-q,--quiet", options.quiet, "No progress and no summary");
   status = parse_command_line(app, argc, argv);
@@ -211,9 +229,12 @@ int verb_frames(int argc, char** argv) {
   info.pid = getpid();
   info.via = "frames";
   RowSink sink;
+  CdfFile cdf;
+  if (!options.cdf_path.empty() && !cdf.open(options.cdf_path, options.force, error))
+    return fail(kExitFailed, error);
   if (!sink.open(options, info, error)) return fail(kExitFailed, error);
   RunRecord record;
-  bool good = process_frames(images, options, sink, record, error);
+  bool good = process_frames(images, options, sink, cdf, record, error);
   if (good && !record.reason.empty()) {
     error = record.reason;
     good = false;

@@ -11,6 +11,8 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "tilepress/cost_model.h"
+
 namespace tilepress {
 namespace {
 
@@ -46,7 +48,25 @@ Json options_json(const RunOptions& options) {
           {"on_full", options.on_full == OnFull::kBlock ? "block" : "drop"}};
 }
 
-Json totals_json(const std::vector<std::string>& names, const std::vector<SchemeStatistics>& totals) {
+/// What the powers of totals_json rest on.
+Json energy_json() {
+  const CostConstants constants;
+  const SurfaceLoad load;
+  return {{"dram_pj_per_byte", constants.dram_pj_per_byte},
+          {"structures_pj_per_byte", constants.structures_pj_per_byte},
+          {"refresh_hz", load.refresh_hz},
+          {"passes", load.passes}};
+}
+
+/// Bytes that the average measured frame moves raw in a second of 60 refreshes, written and read.
+double raw_bytes_per_s(const SchemeStatistics& sum, uint64_t measured_frames) {
+  const SurfaceLoad load;
+  const double frame_bytes = static_cast<double>(sum.raw_bits) / 8 / static_cast<double>(measured_frames);
+  return frame_bytes * load.refresh_hz * load.passes;
+}
+
+Json totals_json(const std::vector<std::string>& names, const std::vector<SchemeStatistics>& totals,
+                 uint64_t measured_frames) {
   Json list = Json::array();
   for (size_t i = 0; i < names.size() && i < totals.size(); ++i) {
     const SchemeStatistics& sum = totals[i];
@@ -61,6 +81,12 @@ Json totals_json(const std::vector<std::string>& names, const std::vector<Scheme
     // A run without measured frames has no rate; JSON has no NaN to say so with.
     entry["rate_payload"] = sum.raw_bits > 0 ? Json(sum.rate_payload()) : Json(nullptr);
     entry["rate"] = sum.raw_bits > 0 ? Json(sum.rate()) : Json(nullptr);
+    if (sum.rate() > 0 && measured_frames > 0) {
+      const double raw_rate = raw_bytes_per_s(sum, measured_frames);
+      entry["energy_saving"] = energy_saving(sum.rate());
+      entry["power_mw"] = compressed_power_mw(raw_rate, sum.rate());
+      entry["raw_power_mw"] = dram_power_mw(raw_rate);
+    }
     if (sum.checked_blocks > 0) {
       entry["checked_blocks"] = sum.checked_blocks;
       entry["mismatched_blocks"] = sum.mismatched_blocks;
@@ -118,7 +144,8 @@ std::string run_json_text(const RunDocument& document) {
   json["options"] = options_json(document.options);
   json["counts"] = counts_json(document.counts);
   json["measured_frames"] = document.measured_frames;
-  json["schemes"] = totals_json(names, document.totals);
+  json["energy"] = energy_json();
+  json["schemes"] = totals_json(names, document.totals, document.measured_frames);
   return dump(json);
 }
 
@@ -179,7 +206,8 @@ std::string finished_run_json(std::string_view text, const RunRecord& record, co
   json["ended"] = utc_now();
   json["counts"] = counts_json(record.counts);
   json["measured_frames"] = record.measured_frames;
-  json["schemes"] = totals_json(record.scheme_names, record.totals);
+  json["energy"] = energy_json();
+  json["schemes"] = totals_json(record.scheme_names, record.totals, record.measured_frames);
   return dump(json);
 }
 

@@ -130,6 +130,8 @@ TEST(PackedFile, HeadersThatClaimTheImpossibleAreRefusedBeforeAnythingIsAllocate
   EXPECT_EQ(line(24, 12, 4), "surface 0: render tiles of 12 pixels cannot be");
   EXPECT_EQ(line(28, 0, 4), "surface 0: bursts of 0 bits cannot be");
   EXPECT_EQ(line(32, 0xFFFFFFFF, 4), "surface 0: CSB entries of 4294967295 bits cannot be");
+  EXPECT_EQ(line(56, '\n', 1), "surface 0: a scheme specification that is no text");
+  EXPECT_EQ(line(56, 0x1B, 1), "surface 0: a scheme specification that is no text");
   EXPECT_NE(line(36, ~uint64_t{0}, 8), "");
   EXPECT_NE(line(44, ~uint64_t{0}, 8), "");
   EXPECT_NE(line(44, ~uint64_t{0} - 100, 8), "");

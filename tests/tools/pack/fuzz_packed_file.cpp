@@ -1,0 +1,26 @@
+// Fuzz target: any bytes as a packed file are read or refused in one line, and so are the pixels in it.
+#include <cstdlib>
+#include <sstream>
+
+#include "packed_file.h"
+#include "tilepress/surface_reader.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
+  using namespace tilepress;
+  std::istringstream in(std::string(reinterpret_cast<const char*>(bytes), size));
+  PackedFileReader file;
+  std::string error;
+  if (!file.open(in, error)) {
+    if (error.empty() || error.find('\n') != std::string::npos) std::abort();
+    return 0;
+  }
+  CompressedSurface surface;
+  for (uint32_t i = 0; i < file.count(); ++i) {
+    if (!file.read(i, surface, error)) continue;
+    SurfaceReader reader;
+    std::vector<uint32_t> words;
+    if (reader.open(surface, {}, error)) (void)reader.read_rect({0, 0, surface.width, surface.height}, words);
+    if (reader.traffic().payload_bursts > reader.traffic().raw_bursts) std::abort();
+  }
+  return 0;
+}
