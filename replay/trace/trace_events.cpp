@@ -1,6 +1,8 @@
 // Trace events: the event stream of an apitrace trace as a sequence of calls.
 #include "trace_events.h"
 
+#include <algorithm>
+
 #include "trace_fault.h"
 
 namespace tilepress {
@@ -59,10 +61,18 @@ bool TraceEvents::read_leave(TraceCall& call) {
     read_details(stray, false);
     return false;
   }
-  read_details(found->second, functions_[found->second.function].watched);
   call = std::move(found->second);
-  open_.erase(found);
+  open_.erase(found);  // first: a call whose return is cut off is lost to a retracer
+  read_details(call, functions_[call.function].watched);
   return true;
+}
+
+std::vector<TraceCall> TraceEvents::open_calls() const {
+  std::vector<TraceCall> calls;
+  for (const auto& [number, call] : open_) calls.push_back(call);
+  std::sort(calls.begin(), calls.end(),
+            [](const TraceCall& a, const TraceCall& b) { return a.number < b.number; });
+  return calls;
 }
 
 uint32_t TraceEvents::read_function() {

@@ -53,7 +53,9 @@ class TraceEvents {
   const std::vector<std::pair<std::string, std::string>>& properties() const { return properties_; }
   const TraceFunction& function(uint32_t index) const { return functions_[index]; }
   uint64_t calls_entered() const { return calls_entered_; }
-  uint64_t open_calls() const { return open_.size(); }
+  /// Calls entered that have not returned, in the order in which they were entered. At the end of a trace a
+  /// retracer repeats these too.
+  std::vector<TraceCall> open_calls() const;
 
  private:
   void read_enter();

@@ -39,7 +39,14 @@ std::optional<TraceSummary> summarize(TraceInput& input, std::string& error, con
     }
     header_read = true;
     TraceCall call;
-    while (events.next(call)) survey.see(call, events.function(call.function));
+    try {
+      while (events.next(call)) survey.see(call, events.function(call.function));
+    } catch (const TraceFault& fault) {
+      if (fault.state == TraceState::kCorrupt) throw;
+      summary.state = fault.state;
+      summary.reason = fault.reason;
+    }
+    for (const TraceCall& open : events.open_calls()) survey.see(open, events.function(open.function));
   } catch (const TraceFault& fault) {
     summary.state = fault.state;
     summary.reason = fault.reason;
@@ -56,7 +63,7 @@ std::optional<TraceSummary> summarize(TraceInput& input, std::string& error, con
   for (const auto& [name, value] : summary.properties)
     if (name == "process.name") summary.program = value;
   summary.calls = events.calls_entered();
-  summary.open_calls = events.open_calls();
+  summary.open_calls = events.open_calls().size();
   survey.report(summary);
   return summary;
 }

@@ -241,12 +241,13 @@ TEST(TraceSummary, OfATraceWithoutFramesIsNoError) {
   EXPECT_EQ(summary.api, TraceApi::kEgl);
 }
 
-TEST(TraceSummary, CountsNoFrameForASwapThatNeverReturned) {
+TEST(TraceSummary, CountsASwapThatNeverReturnedAsARetracerRepeatsIt) {
   TraceBuilder trace;
   trace.swap(3);
   trace.enter("eglSwapBuffers", {pointer(1), pointer(3)});
   const TraceSummary summary = summary_of(trace.file());
-  EXPECT_EQ(summary.frames, 1u);
+  EXPECT_EQ(summary.state, TraceState::kComplete);
+  EXPECT_EQ(summary.frames, 2u);
   EXPECT_EQ(summary.open_calls, 1u);
 }
 

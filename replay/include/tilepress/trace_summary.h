@@ -41,7 +41,7 @@ struct TraceSummary {
   std::string contexts;  ///< client APIs asked for, as "OpenGL ES 3.2"; of the contexts that presented frames
   std::string gl_version, gl_renderer;  ///< as the recording machine reported them; empty if never asked
   uint64_t calls = 0;
-  uint64_t open_calls = 0;              ///< calls entered that never returned; they present no frame
+  uint64_t open_calls = 0;              ///< of those, calls that never returned; a retracer repeats them at the end
   uint64_t threads = 0;                 ///< threads that made calls
   uint64_t frames = 0;                  ///< presentations that a retracer repeats, over all surfaces
   std::vector<TraceSurface> surfaces;   ///< those presented at least once, in the order of first presentation
