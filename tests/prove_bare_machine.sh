@@ -11,7 +11,6 @@ parts=("$@")
 [ ${#parts[@]} -gt 0 ] || parts=(quickstart check)
 
 system=$(mktemp -d /var/tmp/tilepress-bare-XXXXXX)
-chmod 755 "$system"
 clean_up() {
   for mounted in dev/pts dev/shm dev proc sys; do
     mountpoint -q "$system/$mounted" && umount -l "$system/$mounted"
@@ -28,6 +27,7 @@ else
   debootstrap --variant=minbase bookworm "$system" "${TILEPRESS_MIRROR:-http://deb.debian.org/debian}" >/dev/null
   [ -z "$tarball" ] || tar -C "$system" -cf "$tarball" .
 fi
+chmod 755 "$system"  # apt drops its privileges for downloads
 cp /etc/resolv.conf "$system/etc/resolv.conf"
 mount -t proc proc "$system/proc"
 mount -t sysfs -o ro sys "$system/sys"
