@@ -28,11 +28,20 @@ inline uint32_t vdcp_measure(const BlockContext& block, uint32_t pixel_bits) {
 /// `look_up` = false: all raw.
 inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t pixel_bits, uint32_t csb_width,
                         uint32_t raw_mark, BitWriter& payload, BitWriter& csb) {
-  if (block.uniform && look_up && block.ccd_largest[0] == 0) {  // sixteen times width 0: nothing to write
-    csb.put(0, 8 * csb_width);
-    csb.put(0, 8 * csb_width);
+  if (block.uniform && look_up && block.ccd_largest[0] != kNotInCcd) {  // sixteen equal sub-blocks
+    const uint64_t index = block.ccd_indices[0];
+    const uint32_t width = vdcp_width(block.ccd_largest[0]);
+    uint64_t marks = 0, indices = 0;
+    for (uint32_t sub = 0; sub < 8; ++sub) marks = marks << csb_width | width;
+    for (uint32_t i = 0; i < kSubBlockPixels; ++i) indices = indices << width | index;
+    csb.put(marks, 8 * csb_width);
+    csb.put(marks, 8 * csb_width);
+    BitWriter out = payload;  // a copy stays in registers
+    for (uint32_t sub = 0; sub < kSubBlocks && width != 0; ++sub) out.put(indices, kSubBlockPixels * width);
+    payload = out;
     return;
   }
+  BitWriter out = payload;
   uint64_t marks = 0;  // of eight sub-blocks
   for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
     const uint32_t at = sub * kSubBlockPixels;
@@ -44,13 +53,14 @@ inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t pixel_
       marks = 0;
     }
     if (largest == kNotInCcd) {
-      write_raw_pixels(block.pixels + at, kSubBlockPixels, pixel_bits, payload);
-    } else if (width != 0) {
+      write_raw_pixels(block.pixels + at, kSubBlockPixels, pixel_bits, out);
+    } else {
       uint64_t indices = 0;  // four of at most 10 bits
       for (uint32_t i = 0; i < kSubBlockPixels; ++i) indices = indices << width | block.ccd_indices[at + i];
-      payload.put(indices, kSubBlockPixels * width);
+      out.put(indices, kSubBlockPixels * width);
     }
   }
+  payload = out;
 }
 
 /// Reads one sub-block whose CSB holds `width` ≤ 10 (not the raw mark). False: an index beyond the rCCD.
