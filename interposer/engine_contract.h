@@ -7,7 +7,7 @@
 extern "C" {
 #endif
 
-enum { TILEPRESS_ENGINE_VERSION = 2 };
+enum { TILEPRESS_ENGINE_VERSION = 3 };
 
 enum TilepressApi { TILEPRESS_EGL, TILEPRESS_GLX };
 
@@ -17,10 +17,12 @@ struct TilepressPresent {
   void* real;         // the function the call is forwarded to
   void* display;      // EGLDisplay or Display*
   uintptr_t surface;  // EGLSurface or GLXDrawable
-  const int32_t*
-      damage;  // x, y, width, height of each damage rectangle, origin bottom left; NULL = everything
+  // x, y, width, height of each damage rectangle, origin at the bottom left; NULL = the whole surface
+  const int32_t* damage;
   int32_t damage_count;
-  void* ticket[4];  // the engine's own, from begin to end
+  const char* via;                     // road of the call, as in run.json
+  void* (*look_up)(const char* name);  // the driver's functions where no public library answers; NULL else
+  void* ticket[4];                     // the engine's own, from begin to end
 };
 
 struct TilepressEngine {
@@ -31,9 +33,9 @@ struct TilepressEngine {
   // The presenting call has returned; `presented` = it succeeded. Calls neither GL nor EGL.
   void (*end)(struct TilepressPresent* present, int presented);
   // The program is about to destroy contexts of `display`: ours on it go first.
-  void (*contexts_going)(uint32_t api, void *display);
+  void (*contexts_going)(uint32_t api, void* display);
   // The program is about to destroy an EGL surface: one that is made later with the same handle is another.
-  void (*surface_going)(void *display, uintptr_t surface);
+  void (*surface_going)(void* display, uintptr_t surface);
   // The process is about to end: every frame taken is written out. May be called more than once.
   void (*finish)(void);
 };
@@ -41,7 +43,6 @@ struct TilepressEngine {
 // What the engine may use of the library that loads it.
 struct TilepressHost {
   uint32_t version;
-  const char* via;                                 // road of capture, as in run.json
   void* (*dlsym)(void* handle, const char* name);  // the real one
 };
 

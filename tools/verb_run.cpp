@@ -16,6 +16,7 @@
 #include "shim_path.h"
 #include "summary_table.h"
 #include "tilepress/run_reader.h"
+#include "tilepress/shim_environment.h"
 #include "verb.h"
 
 namespace tilepress {
@@ -38,7 +39,7 @@ constexpr const char* kExamples =
 
 struct LaunchOptions {
   RunOptions run;
-  std::string via = "preload";
+  std::string via = "auto";
   bool quiet = false;
   std::vector<std::string> program;
 };
@@ -50,10 +51,10 @@ std::optional<int> parse_options(int argc, char** argv, LaunchOptions& options) 
   app.prefix_command();
   add_run_options(app, options.run);
   add_on_full_option(app, options.run);
-  app.add_option("--via", options.via, "How the shim gets into the program (default: preload)")
-      ->type_name("preload")
+  app.add_option("--via", options.via, "How the shim gets into the program (default: auto)")
+      ->type_name("auto|preload|glvnd")
       ->check([](const std::string& road) {
-        return road == "preload" ? std::string() : "not a road this build has: " + road;
+        return parse_shim_road(road) ? std::string() : "not auto, preload or glvnd: " + road;
       });
   app.add_flag("-q,--quiet", options.quiet, "No summary");
 
@@ -89,13 +90,14 @@ bool prepare_output(std::string& folder, bool& made, std::string& error) {
   return !code;
 }
 
-std::map<std::string, std::string> child_environment(const LaunchOptions& options,
-                                                     const SessionFolder& session, const std::string& shim) {
+std::optional<std::map<std::string, std::string>> child_environment(const LaunchOptions& options,
+                                                                    const SessionFolder& session,
+                                                                    const std::string& shim,
+                                                                    std::string& error) {
   auto environment = to_environment(options.run);
   environment["TILEPRESS_SESSION"] = session.path();
-  const char* present = std::getenv("LD_PRELOAD");
-  const std::string preload = session.preloadable(shim);
-  environment["LD_PRELOAD"] = present != nullptr && *present != '\0' ? preload + ":" + present : preload;
+  if (!add_shim_environment(environment, *parse_shim_road(options.via), session.preloadable(shim), error))
+    return std::nullopt;
   return environment;
 }
 
@@ -187,7 +189,9 @@ int verb_run(int argc, char** argv) {
   if (!session.create(error)) return fail(kExitLauncherFailed, error);
   options.run.log_file = session.log_path();
 
-  const auto child = run_child(options.program, child_environment(options, session, *shim), failure);
+  const auto environment = child_environment(options, session, *shim, error);
+  if (!environment) return fail(kExitLauncherFailed, error);
+  const auto child = run_child(options.program, *environment, failure);
   if (!child) return fail(failure.status, failure.reason);
 
   for (const std::string& line : session.log_lines()) std::fprintf(stderr, "%s\n", line.c_str());

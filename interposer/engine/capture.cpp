@@ -1,14 +1,15 @@
 // Capture: what happens to a frame between the hook and the worker.
 #include "interposer/engine/capture.h"
 
+#include "interposer/engine/monotonic_clock.h"
+
 #include <errno.h>
-#include <fcntl.h>
-#include <sys/syscall.h>
-#include <time.h>
+#include <sys/auxv.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 
@@ -17,12 +18,6 @@
 namespace tilepress {
 namespace {
 
-uint64_t now_ns() {
-  timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<uint64_t>(now.tv_sec) * 1000000000u + static_cast<uint64_t>(now.tv_nsec);
-}
-
 std::vector<std::string> command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::vector<std::string> command;
@@ -30,15 +25,19 @@ std::vector<std::string> command_line() {
   return command;
 }
 
-// Asked of the kernel: a retracer takes its trace's name, in program_invocation_name and by a readlink of its
-// own.
+// The name it was started by. Not program_invocation_name, which a retracer sets to the name of its trace.
 std::string program_name() {
-  char path[4096];
-  const long length = syscall(SYS_readlinkat, AT_FDCWD, "/proc/self/exe", path, sizeof path);
-  std::string name(path, length > 0 ? static_cast<size_t>(length) : 0);
-  if (const auto deleted = name.find(" (deleted)"); deleted != std::string::npos) name.resize(deleted);
+  const auto* path = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+  std::string name = path != nullptr ? path : "";
   name.erase(0, name.rfind('/') + 1);
   return name.empty() ? program_invocation_short_name : name;
+}
+
+std::string damage_text(const TilepressPresent& present) {
+  std::string text;
+  for (int32_t i = 0; present.damage != nullptr && i < 4 * present.damage_count; ++i)
+    text += (i == 0 ? "" : i % 4 == 0 ? ";" : " ") + std::to_string(present.damage[i]);
+  return text;
 }
 
 constexpr uint32_t kNoWindow = ~0u;
@@ -58,21 +57,21 @@ PresentSource* Capture::source_of(const TilepressPresent& present) {
   std::lock_guard lock(mutex_);
   for (const Source& known : sources_)
     if (known.real == present.real) return known.source.get();
-  auto source = present.api == TILEPRESS_EGL ? make_egl_source(host_, present.real)
-                                             : make_glx_source(host_, present.real);
+  auto source =
+      present.api == TILEPRESS_EGL ? make_egl_source(host_, present) : make_glx_source(host_, present);
   if (source == nullptr) log_->write(LogLevel::kError, "the GL library lacks functions to read frames back");
   sources_.push_back({present.real, present.api, std::move(source)});
   return sources_.back().source.get();
 }
 
-CaptureWorker* Capture::worker(const PresentSource& source) {
+CaptureWorker* Capture::worker(const TilepressPresent& present, const PresentSource& source) {
   std::lock_guard lock(mutex_);
   if (CaptureWorker* known = worker_) return known;
   RunInfo info;
   info.command = command_line();
   info.program = program_name();
   info.pid = pid_;
-  info.via = host_.via;
+  info.via = present.via;
   const GlStrings strings = source.strings();
   info.gl_vendor = strings.vendor;
   info.gl_renderer = strings.renderer;
@@ -103,7 +102,7 @@ Capture::Outcome Capture::take(TilepressPresent& present, PresentSource& source,
   }
   const SurfaceRegistry::Turn turn = registry_.turn(key, shape);
   window = turn.window;
-  if (turn.forgotten) worker(source)->queue().submit_end_of(*turn.forgotten);
+  if (turn.forgotten) worker(present, source)->queue().submit_end_of(*turn.forgotten);
   if (!options_.takes(turn.frame)) return Outcome::kSkipped;
   if (!shape.format || !traits(*shape.format).modelled ||
       std::max(shape.width, shape.height) > kMaxSurfaceSide) {
@@ -112,12 +111,12 @@ Capture::Outcome Capture::take(TilepressPresent& present, PresentSource& source,
     return Outcome::kUnsupported;
   }
   const uint64_t wait_ns = now_ns();
-  frame = worker(source)->queue().acquire(options_.on_full == OnFull::kBlock);
+  frame = worker(present, source)->queue().acquire(options_.on_full == OnFull::kBlock);
   if (frame == nullptr) return Outcome::kDropped;
   const uint64_t waited_ns = now_ns() - wait_ns;
   if (!source.read(present, shape, *frame, reason)) {
     report(turn.surface, "not captured: " + reason);
-    worker(source)->queue().release(frame);
+    worker_.load()->queue().release(frame);
     frame = nullptr;
     return Outcome::kNotCaptured;
   }
@@ -125,6 +124,8 @@ Capture::Outcome Capture::take(TilepressPresent& present, PresentSource& source,
   frame->surface = turn.surface;
   frame->frame = turn.frame;
   frame->time_ns = begin_ns - start_ns_;
+  frame->wait_ns = waited_ns;
+  frame->damage = damage_text(present);
   frame->readback_ns = now_ns() - begin_ns - waited_ns;
   return Outcome::kTaken;
 }
@@ -137,7 +138,8 @@ bool Capture::begin(TilepressPresent& present) {
   uint32_t window = kNoWindow;
   CapturedFrame* frame = nullptr;
   const Outcome outcome = take(present, *source, window, frame);
-  worker(*source);
+  worker(present, *source);
+  counts_.roads |= strcmp(present.via, "glvnd") == 0 ? kRoadGlvnd : kRoadPreload;
   if (!enabled_) return false;
   present.ticket[0] = reinterpret_cast<void*>(outcome);
   present.ticket[1] = reinterpret_cast<void*>(uintptr_t{window});

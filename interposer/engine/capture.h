@@ -38,7 +38,7 @@ class Capture {
   PresentSource* source_of(const TilepressPresent& present);
   Outcome take(TilepressPresent& present, PresentSource& source, uint32_t& window, CapturedFrame*& frame);
   void report(uint32_t surface, const std::string& reason);
-  CaptureWorker* worker(const PresentSource& source);
+  CaptureWorker* worker(const TilepressPresent& present, const PresentSource& source);
 
   const TilepressHost host_;
   const int64_t pid_;

@@ -75,6 +75,8 @@ bool CaptureWorker::create_directory() {
   for (int suffix = 2; lstat(path.c_str(), &status) == 0; ++suffix)
     path = stem + "-" + std::to_string(suffix);
   if (!writer_.create(path, info_, options_)) return false;
+  if (!presents_.create(path + "/presents.csv", "frame,surface,readback_ns,read_ns,wait_ns,damage\n"))
+    return false;
   note_run_folder(path, info_.pid);
   log_.write(LogLevel::kInfo, path + ": run started");
   return true;
@@ -93,8 +95,17 @@ void CaptureWorker::process(const CapturedFrame& frame) {
   statistics_.readback_ns = frame.readback_ns;
   found->second.engine.process(frame.view, statistics_);
   dump_frame(frame, log_);
+  if (!append_present(frame)) return give_up(writer_.path() + "/presents.csv: cannot be written");
   if (!writer_.append(statistics_)) return give_up(writer_.error());
   ++counts_.captured;
+}
+
+bool CaptureWorker::append_present(const CapturedFrame& frame) {
+  std::string row;
+  for (const uint64_t value :
+       {frame.frame, uint64_t{frame.surface}, frame.readback_ns, frame.read_ns, frame.wait_ns})
+    row += std::to_string(value) + ",";
+  return presents_.append(row + frame.damage + "\n");
 }
 
 void CaptureWorker::publish_counts() {
@@ -106,6 +117,10 @@ void CaptureWorker::publish_counts() {
   counts.unsupported = counts_.unsupported;
   counts.not_captured = counts_.not_captured;
   writer_.set_counts(counts);
+  if (counts_.roads == (kRoadPreload | kRoadGlvnd) && info_.via != "preload+glvnd") {
+    info_.via = "preload+glvnd";
+    writer_.set_info(info_);
+  }
 }
 
 void CaptureWorker::give_up(const std::string& reason) {

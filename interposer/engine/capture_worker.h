@@ -9,14 +9,19 @@
 
 #include "interposer/engine/frame_queue.h"
 #include "interposer/engine/shim_log.h"
+#include "interposer/run/append_file.h"
 #include "tilepress/run_directory.h"
 #include "tilepress/surface_engine.h"
 
 namespace tilepress {
 
+/// Roads by which presents have come; both may be in use at once.
+constexpr uint32_t kRoadPreload = 1, kRoadGlvnd = 2;
+
 /// Counts of the process, raised by the presenting threads (and `captured` by the worker).
 struct CaptureCounts {
   std::atomic<uint64_t> seen{0}, captured{0}, dropped{0}, skipped{0}, unsupported{0}, not_captured{0};
+  std::atomic<uint32_t> roads{0};
 };
 
 /// Owns the run directory, which it creates at the first present: a process that presents nothing leaves no
@@ -40,15 +45,17 @@ class CaptureWorker {
   void run();
   bool create_directory();
   void process(const CapturedFrame& frame);
+  bool append_present(const CapturedFrame& frame);
   void publish_counts();
   void give_up(const std::string& reason);
 
   const RunOptions options_;
-  const RunInfo info_;
+  RunInfo info_;
   CaptureCounts& counts_;
   const ShimLog& log_;
   FrameQueue queue_;
   RunWriter writer_;
+  AppendFile presents_;                   ///< presents.csv
   std::map<uint32_t, Surface> surfaces_;  ///< by window
   FrameStatistics statistics_;
   std::thread thread_;

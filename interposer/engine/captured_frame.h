@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "tilepress/surface.h"
 
@@ -16,7 +17,11 @@ struct CapturedFrame {
   uint32_t surface = 0;         ///< surface number in the statistics: a window at one size and format
   uint64_t frame = 0;           ///< number of the frame within its surface
   uint64_t time_ns = 0;         ///< since the run began
-  uint64_t readback_ns = 0;
+  uint64_t readback_ns = 0;     ///< all that the program's thread spent, without wait_ns
+  uint64_t read_ns = 0;         ///< of that, in the read itself, which waits for the rendering to end
+  uint64_t wait_ns = 0;         ///< for room in the queue
+  std::string damage;  ///< "x y width height;…" from the bottom left, as presented; empty = everything
+
   SurfaceView view;  ///< lies in `pixels`
 
   /// Room for `bytes` bytes, contents undefined; null if there is no memory.

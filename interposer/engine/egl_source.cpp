@@ -174,12 +174,13 @@ class EglSource final : public PresentSource {
 
 }  // namespace
 
-std::unique_ptr<PresentSource> make_egl_source(const TilepressHost& host, void* real) {
-  const LibrarySymbols library(host, real);
+std::unique_ptr<PresentSource> make_egl_source(const TilepressHost& host, const TilepressPresent& present) {
+  const LibrarySymbols library(host, present);
   EglFunctions egl;
   GlFunctions gl;
   if (!egl.load(library)) return nullptr;
   const bool loaded = gl.load([&](const char* name) -> void* {
+    if (present.look_up != nullptr) return present.look_up(name);
     if (void* found = reinterpret_cast<void*>(egl.GetProcAddress(name))) return found;
     for (const char* other : {"libGLESv2.so.2", "libGL.so.1", "libOpenGL.so.0"})
       if (void* found = library.find_in_loaded(other, name)) return found;

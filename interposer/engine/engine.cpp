@@ -23,12 +23,19 @@ Capture* capture_of_this_process() {
   return known;
 }
 
+// True on a thread that is between begin and end, or in a call below. Where both roads are open, a call that
+// one has seen comes along the other once more; and our own calls come along it too.
+thread_local bool inside = false;
+
 int begin(TilepressPresent* present) {
+  if (inside) return 0;
+  inside = true;
   try {
-    return capture_of_this_process()->begin(*present) ? 1 : 0;
+    inside = capture_of_this_process()->begin(*present);
   } catch (...) {
-    return 0;
+    inside = false;
   }
+  return inside ? 1 : 0;
 }
 
 void end(TilepressPresent* present, int presented) {
@@ -36,6 +43,7 @@ void end(TilepressPresent* present, int presented) {
     capture_of_this_process()->end(*present, presented != 0);
   } catch (...) {
   }
+  inside = false;
 }
 
 // Of this process, if it has captured anything.
@@ -45,13 +53,17 @@ Capture* known_capture() {
 }
 
 void contexts_going(uint32_t api, void* display) {
+  if (inside) return;
+  inside = true;
   try {
     if (Capture* known = known_capture()) known->contexts_going(api, display);
   } catch (...) {
   }
+  inside = false;
 }
 
 void surface_going(void* display, uintptr_t surface) {
+  if (inside) return;
   try {
     if (Capture* known = known_capture()) known->surface_going(display, surface);
   } catch (...) {

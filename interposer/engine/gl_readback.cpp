@@ -4,6 +4,8 @@
 
 #include <GL/glext.h>
 
+#include "interposer/engine/monotonic_clock.h"
+
 namespace tilepress {
 namespace {
 
@@ -64,8 +66,10 @@ bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape, Captured
   // others maybe not.
   if (gl.ReadBuffer != nullptr) gl.ReadBuffer(GL_BACK);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  const uint64_t begin_ns = now_ns();
   gl.ReadPixels(0, 0, static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height), transfer.format,
                 transfer.type, pixels);
+  frame.read_ns = now_ns() - begin_ns;
   for (GLenum found = gl.GetError(); found != GL_NO_ERROR; found = gl.GetError()) error = found;
   frame.view.top_row = pixels + pitch_bytes * (shape.height - 1);
   frame.view.pitch_bytes = -static_cast<ptrdiff_t>(pitch_bytes);

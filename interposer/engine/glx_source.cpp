@@ -179,12 +179,13 @@ class GlxSource final : public PresentSource {
 
 }  // namespace
 
-std::unique_ptr<PresentSource> make_glx_source(const TilepressHost& host, void* real) {
-  const LibrarySymbols library(host, real);
+std::unique_ptr<PresentSource> make_glx_source(const TilepressHost& host, const TilepressPresent& present) {
+  const LibrarySymbols library(host, present);
   GlxFunctions glx;
   GlFunctions gl;
   if (!glx.load(library)) return nullptr;
   const bool loaded = gl.load([&](const char* name) -> void* {
+    if (present.look_up != nullptr) return present.look_up(name);
     if (void* found = reinterpret_cast<void*>(glx.GetProcAddressARB(reinterpret_cast<const GLubyte*>(name))))
       return found;
     return library.find(name);

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <vector>
 
+#include "interposer/engine/monotonic_clock.h"
+
 namespace tilepress {
 namespace {
 
@@ -131,8 +133,10 @@ bool read_in_program_context(const GlFunctions& gl, const SurfaceShape& shape, b
   {
     const BackBufferBinding binding(gl, version, double_buffered);
     const PlainPackState pack(gl, version);
+    const uint64_t begin_ns = now_ns();
     gl.ReadPixels(0, 0, static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height), layout, type,
                   pixels);
+    frame.read_ns = now_ns() - begin_ns;
   }
   frame.view = {pixels + pitch_bytes * (shape.height - 1),
                 -static_cast<ptrdiff_t>(pitch_bytes),

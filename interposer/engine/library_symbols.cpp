@@ -5,14 +5,16 @@
 
 namespace tilepress {
 
-LibrarySymbols::LibrarySymbols(const TilepressHost& host, void* function) : dlsym_(host.dlsym) {
+LibrarySymbols::LibrarySymbols(const TilepressHost& host, const TilepressPresent& present)
+    : dlsym_(host.dlsym), driver_look_up_(present.look_up) {
   Dl_info where;
-  if (dladdr(function, &where) != 0)
+  if (dladdr(present.real, &where) != 0)
     handle_ = dlopen(where.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
 }
 
 void* LibrarySymbols::find(const char* name) const {
-  void* found = handle_ != nullptr ? dlsym_(handle_, name) : nullptr;
+  void* found = driver_look_up_ != nullptr ? driver_look_up_(name) : nullptr;
+  if (found == nullptr && handle_ != nullptr) found = dlsym_(handle_, name);
   if (found == nullptr) found = dlsym_(RTLD_DEFAULT, name);
   dlerror();
   return found;

@@ -35,7 +35,7 @@ class PresentSource {
 };
 
 /// Null if the library that holds `present.real` lacks a function the readback needs.
-std::unique_ptr<PresentSource> make_egl_source(const TilepressHost& host, void* real);
-std::unique_ptr<PresentSource> make_glx_source(const TilepressHost& host, void* real);
+std::unique_ptr<PresentSource> make_egl_source(const TilepressHost& host, const TilepressPresent& present);
+std::unique_ptr<PresentSource> make_glx_source(const TilepressHost& host, const TilepressPresent& present);
 
 }  // namespace tilepress

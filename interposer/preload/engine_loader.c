@@ -40,7 +40,7 @@ static void load(void) {
     return;
   }
   TilepressEngineEntry entry = (TilepressEngineEntry)tp_real_dlsym()(library, "tilepress_engine");
-  static struct TilepressHost host = {TILEPRESS_ENGINE_VERSION, "preload", NULL};
+  static struct TilepressHost host = {TILEPRESS_ENGINE_VERSION, NULL};
   host.dlsym = tp_real_dlsym();
   const struct TilepressEngine* engine = entry != NULL ? entry(&host) : NULL;
   if (engine == NULL) report("of another version");

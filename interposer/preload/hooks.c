@@ -14,7 +14,8 @@ void* tp_on_get_proc_address(void* real, const char* name) {
 }
 
 tp_egl_boolean tp_on_egl_swap(void* real, tp_display display, tp_egl_surface surface) {
-  struct TilepressPresent present = {TILEPRESS_EGL, real, display, (uintptr_t)surface, NULL, 0, {0}};
+  struct TilepressPresent present = {
+      .api = TILEPRESS_EGL, .real = real, .display = display, .surface = (uintptr_t)surface};
   if (real == NULL) return 0;
   const bool taken = tp_presenting(&present);
   const tp_egl_boolean result = ((tp_egl_boolean(*)(tp_display, tp_egl_surface))real)(display, surface);
@@ -25,8 +26,12 @@ tp_egl_boolean tp_on_egl_swap(void* real, tp_display display, tp_egl_surface sur
 tp_egl_boolean tp_on_egl_swap_with_damage(void* real, tp_display display, tp_egl_surface surface,
                                           const tp_egl_int* rectangles, tp_egl_int count) {
   typedef tp_egl_boolean (*function)(tp_display, tp_egl_surface, const tp_egl_int*, tp_egl_int);
-  struct TilepressPresent present = {TILEPRESS_EGL, real,  display, (uintptr_t)surface,
-                                     rectangles,    count, {0}};
+  struct TilepressPresent present = {.api = TILEPRESS_EGL,
+                                     .real = real,
+                                     .display = display,
+                                     .surface = (uintptr_t)surface,
+                                     .damage = rectangles,
+                                     .damage_count = count};
   if (real == NULL) return 0;
   const bool taken = tp_presenting(&present);
   const tp_egl_boolean result = ((function)real)(display, surface, rectangles, count);
@@ -39,7 +44,12 @@ tp_egl_boolean tp_on_egl_post_sub_buffer(void* real, tp_display display, tp_egl_
   typedef tp_egl_boolean (*function)(tp_display, tp_egl_surface, tp_egl_int, tp_egl_int, tp_egl_int,
                                      tp_egl_int);
   const int32_t damage[4] = {x, y, width, height};
-  struct TilepressPresent present = {TILEPRESS_EGL, real, display, (uintptr_t)surface, damage, 1, {0}};
+  struct TilepressPresent present = {.api = TILEPRESS_EGL,
+                                     .real = real,
+                                     .display = display,
+                                     .surface = (uintptr_t)surface,
+                                     .damage = damage,
+                                     .damage_count = 1};
   if (real == NULL) return 0;
   const bool taken = tp_presenting(&present);
   const tp_egl_boolean result = ((function)real)(display, surface, x, y, width, height);
@@ -48,7 +58,8 @@ tp_egl_boolean tp_on_egl_post_sub_buffer(void* real, tp_display display, tp_egl_
 }
 
 void tp_on_glx_swap(void* real, tp_display display, tp_glx_drawable drawable) {
-  struct TilepressPresent present = {TILEPRESS_GLX, real, display, drawable, NULL, 0, {0}};
+  struct TilepressPresent present = {
+      .api = TILEPRESS_GLX, .real = real, .display = display, .surface = drawable};
   if (real == NULL) return;
   const bool taken = tp_presenting(&present);
   ((void (*)(tp_display, tp_glx_drawable))real)(display, drawable);
@@ -58,7 +69,8 @@ void tp_on_glx_swap(void* real, tp_display display, tp_glx_drawable drawable) {
 int64_t tp_on_glx_swap_msc(void* real, tp_display display, tp_glx_drawable drawable, int64_t target_msc,
                            int64_t divisor, int64_t remainder) {
   typedef int64_t (*function)(tp_display, tp_glx_drawable, int64_t, int64_t, int64_t);
-  struct TilepressPresent present = {TILEPRESS_GLX, real, display, drawable, NULL, 0, {0}};
+  struct TilepressPresent present = {
+      .api = TILEPRESS_GLX, .real = real, .display = display, .surface = drawable};
   if (real == NULL) return -1;
   const bool taken = tp_presenting(&present);
   const int64_t result = ((function)real)(display, drawable, target_msc, divisor, remainder);
@@ -69,7 +81,12 @@ int64_t tp_on_glx_swap_msc(void* real, tp_display display, tp_glx_drawable drawa
 void tp_on_glx_copy_sub_buffer(void* real, tp_display display, tp_glx_drawable drawable, int x, int y,
                                int width, int height) {
   const int32_t damage[4] = {x, y, width, height};
-  struct TilepressPresent present = {TILEPRESS_GLX, real, display, drawable, damage, 1, {0}};
+  struct TilepressPresent present = {.api = TILEPRESS_GLX,
+                                     .real = real,
+                                     .display = display,
+                                     .surface = drawable,
+                                     .damage = damage,
+                                     .damage_count = 1};
   if (real == NULL) return;
   const bool taken = tp_presenting(&present);
   ((void (*)(tp_display, tp_glx_drawable, int, int, int, int))real)(display, drawable, x, y, width, height);

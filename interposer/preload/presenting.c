@@ -6,6 +6,9 @@
 #include <stddef.h>
 
 #include "engine_loader.h"
+#include "session_file.h"
+
+void* (*tp_driver_lookup[2])(const char* name);
 
 // Depth of presenting calls on this thread. A driver or another shim may present through a hooked function.
 static __thread int depth __attribute__((tls_model("initial-exec")));
@@ -16,6 +19,11 @@ bool tp_presenting(struct TilepressPresent* present) {
   const int saved = errno;
   pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &cancel_state);
   depth = 1;
+  present->via = tp_via;
+  present->look_up = tp_driver_lookup[present->api];
+  // There every library is looked up at once, used or not: what tells is the call.
+  if (present->look_up != NULL)
+    tp_session_note(present->api == TILEPRESS_EGL ? "eglSwapBuffers" : "glXSwapBuffers", tp_via);
   const struct TilepressEngine* engine = tp_engine();
   const bool taken = engine != NULL && engine->begin(present) != 0;
   depth = taken ? 1 : 0;

@@ -5,6 +5,13 @@
 
 #include "../engine_contract.h"
 
+// The name of this road in, as in run.json: each library that links the hooks defines its own.
+extern const char* const tp_via;
+
+// By enum TilepressApi: how the engine finds the driver's functions where the driver is called without its
+// public library; NULL where that library answers.
+extern void* (*tp_driver_lookup[2])(const char* name);
+
 // Before the real call. True if tp_presented must be called after it; false for calls from inside a
 // presenting call (drivers implement one through another) and where nothing is captured.
 bool tp_presenting(struct TilepressPresent* present);

@@ -28,7 +28,7 @@ void tp_session_note(const char* entry, const char* road) {
   static unsigned noted[TP_ENTRY_COUNT];
   const int index = tp_find_entry(entry);
   if (strstr(entry, "Destroy") != NULL || strstr(entry, "Terminate") != NULL) return;
-  const unsigned bit = road[0] == 'l' ? 1 : road[0] == 'd' ? 2 : road[0] == 'g' ? 4 : 8;
+  const unsigned bit = road[0] == 'l' ? 1 : road[0] == 'd' ? 2 : road[0] == 'u' ? 4 : road[1] == 'e' ? 8 : 16;
   if (index < 0 || (__atomic_fetch_or(&noted[index], bit, __ATOMIC_RELAXED) & bit) != 0) return;
   const char* folder = getenv("TILEPRESS_SESSION");
   if (folder == NULL || folder[0] == 0) return;

@@ -3,5 +3,5 @@
 
 // Appends "program entry road" to $TILEPRESS_SESSION/<pid>.seen, once per entry and road; nothing where the
 // variable is not set. `entry` is a name of tp_entry_names; those that end something are not told. Keeps
-// errno. road: link, dlsym, getprocaddress, or unhooked (all hooks of the entry are in use).
+// errno. road: link, dlsym, getprocaddress, or glvnd, unhooked (all hooks of the entry are in use).
 void tp_session_note(const char* entry, const char* road);

@@ -1,15 +1,12 @@
 // Run directory: the writer's side. One write() per file and frame, schemes.csv before frames.csv.
 #include "tilepress/run_directory.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
 
+#include "run/append_file.h"
 #include "run/run_json.h"
 #include "tilepress/run_reader.h"
 
@@ -24,42 +21,14 @@ uint64_t monotonic_ns() {
   return static_cast<uint64_t>(now.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(now.tv_nsec);
 }
 
-/// Appends all of `text` or nothing: what a full disk lets through of a row is cut off again.
-bool append_whole(int fd, const std::string& text) {
-  const off_t before = lseek(fd, 0, SEEK_END);
-  size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t written = write(fd, text.data() + done, text.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) {
-      const int error = written == 0 ? ENOSPC : errno;
-      if (done > 0 && before >= 0 && ftruncate(fd, before) != 0) { /* the reader drops a torn row */
-      }
-      errno = error;
-      return false;
-    }
-    done += static_cast<size_t>(written);
-  }
-  return true;
-}
-
-int create_csv(const std::string& path, const std::string& header) {
-  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0644);
-  if (fd >= 0 && !append_whole(fd, header)) {
-    const int error = errno;
-    close(fd);
-    unlink(path.c_str());
-    errno = error;
-    return -1;
-  }
-  return fd;
-}
-
 }  // namespace
 
-RunWriter::~RunWriter() {
-  if (frames_fd_ >= 0) close(frames_fd_);
-  if (schemes_fd_ >= 0) close(schemes_fd_);
+RunWriter::RunWriter() : frames_(std::make_unique<AppendFile>()), schemes_(std::make_unique<AppendFile>()) {}
+
+RunWriter::~RunWriter() = default;
+
+bool RunWriter::is_open() const {
+  return frames_->is_open();
 }
 
 bool RunWriter::create(const std::string& path, const RunInfo& info, const RunOptions& options) {
@@ -82,9 +51,8 @@ bool RunWriter::create(const std::string& path, const RunInfo& info, const RunOp
     error_ = path + ": already holds a run";
     return false;
   }
-  schemes_fd_ = create_csv(path + "/schemes.csv", schemes_csv_header());
-  if (schemes_fd_ >= 0) frames_fd_ = create_csv(path + "/frames.csv", frames_csv_header());
-  if (frames_fd_ < 0) {
+  if (!schemes_->create(path + "/schemes.csv", schemes_csv_header()) ||
+      !frames_->create(path + "/frames.csv", frames_csv_header())) {
     error_ = path + ": " + std::strerror(errno);
     return false;
   }
@@ -94,13 +62,13 @@ bool RunWriter::create(const std::string& path, const RunInfo& info, const RunOp
 bool RunWriter::append(const FrameStatistics& frame) {
   row_buffer_.clear();
   append_schemes_rows(frame, scheme_names_, row_buffer_);
-  if (!append_whole(schemes_fd_, row_buffer_)) {
+  if (!schemes_->append(row_buffer_)) {
     error_ = path_ + "/schemes.csv: " + std::strerror(errno);
     return false;
   }
   row_buffer_.clear();
   append_frames_row(frame, row_buffer_);
-  if (!append_whole(frames_fd_, row_buffer_)) {
+  if (!frames_->append(row_buffer_)) {
     error_ = path_ + "/frames.csv: " + std::strerror(errno);
     return false;
   }

@@ -153,7 +153,13 @@ ShimRun ShimTest::run(const std::vector<std::string>& command,
                       std::map<std::string, std::string> environment) {
   const fs::path output = folder_.path() / "out", session = folder_.path() / "session";
   fs::create_directories(session);
-  environment.try_emplace("LD_PRELOAD", TILEPRESS_PRELOAD);
+  const std::string libraries = fs::path(TILEPRESS_PRELOAD).parent_path().string();
+  environment.try_emplace("LD_PRELOAD", road_ == Road::kGlvnd ? "" : TILEPRESS_PRELOAD);
+  if (road_ != Road::kPreload) {
+    environment["__EGL_VENDOR_LIBRARY_FILENAMES"] = libraries + "/egl_vendor.json";
+    environment["__GLX_VENDOR_LIBRARY_NAME"] = "tilepress";
+    environment["LD_LIBRARY_PATH"] = libraries;
+  }
   environment.try_emplace("TILEPRESS_OUT", output.string());
   environment.try_emplace("TILEPRESS_SESSION", session.string());
   environment.try_emplace("TILEPRESS_LOG_FILE", (folder_.path() / "log").string());
@@ -163,8 +169,9 @@ ShimRun ShimTest::run(const std::vector<std::string>& command,
   result.process = run_process(command, environment);
   if (fs::exists(output))
     for (const auto& entry : fs::directory_iterator(output))
-      result.runs.push_back({entry.path(), read_table(entry.path() / "frames.csv"),
-                             read_table(entry.path() / "schemes.csv"), read_file(entry.path() / "run.json")});
+      result.runs.push_back(
+          {entry.path(), read_table(entry.path() / "frames.csv"), read_table(entry.path() / "schemes.csv"),
+           read_table(entry.path() / "presents.csv"), read_file(entry.path() / "run.json")});
   std::sort(result.runs.begin(), result.runs.end(),
             [](const auto& a, const auto& b) { return a.path < b.path; });
   for (const auto& entry : fs::directory_iterator(session))

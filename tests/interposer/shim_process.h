@@ -39,6 +39,7 @@ const std::string& own_display();
 struct CapturedRun {
   std::filesystem::path path;
   std::vector<std::map<std::string, std::string>> frames, schemes;  ///< rows by column name
+  std::vector<std::map<std::string, std::string>> presents;
   std::string json;
   std::string json_text(const std::string& key) const;  ///< of a string member, at any depth; first found
   int64_t json_number(const std::string& key) const;
@@ -52,13 +53,18 @@ struct ShimRun {
   std::string log;
 };
 
+/// Ways for the shim to get into a program.
+enum class Road { kPreload, kGlvnd, kBoth };
+
 class ShimTest {
  public:
+  explicit ShimTest(Road road = Road::kPreload) : road_(road) {}
   ShimRun run(const std::vector<std::string>& command, std::map<std::string, std::string> environment = {});
   /// Bytes of a dumped frame; empty if there is none.
   std::vector<uint8_t> dump(uint32_t surface, uint64_t frame) const;
 
  private:
+  Road road_;
   ScratchFolder folder_;
 };
 

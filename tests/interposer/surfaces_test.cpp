@@ -80,6 +80,22 @@ TEST(Surfaces, AResizedWindowGoesOnAsANewSurface) {
   expect_surface(test, run.runs[0], 3, 3, 64, 48, false);
 }
 
+TEST(Surfaces, DamageRectanglesAreRecordedAndRefusedPresentsAreNoFrames) {
+  ShimTest test;
+  const ShimRun run = test.run({TILEPRESS_EGL_DAMAGE}, {{"DISPLAY", own_display()}});
+  const ProcessResult without =
+      run_process({TILEPRESS_EGL_DAMAGE}, {{"LD_PRELOAD", ""}, {"DISPLAY", own_display()}});
+  EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
+  EXPECT_EQ(run.process.out, without.out);
+  EXPECT_NE(run.process.out.find("swap 1"), std::string::npos) << run.process.out;
+  ASSERT_EQ(run.runs.size(), 1u);
+  expect_surface(test, run.runs[0], 0, 3, 64, 48, false);
+  ASSERT_EQ(run.runs[0].presents.size(), 3u);
+  EXPECT_EQ(run.runs[0].presents[0].count("damage"), 0u);  // the last field is empty: everything
+  EXPECT_EQ(run.runs[0].presents[1].at("damage"), "1 2 3 4");
+  EXPECT_EQ(run.runs[0].presents[2].at("damage"), "1 2 3 4;50 6 7 8");
+}
+
 TEST(Surfaces, FailedSwapsFailAsWithoutTheShimAndAreNoFrames) {
   ShimTest test;
   const ShimRun run = run_scene(test, {"failures"});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "tilepress/statistics.h"
 
 namespace tilepress {
+
+class AppendFile;
 
 /// What run.json tells beside the totals.
 struct RunInfo {
@@ -37,7 +40,7 @@ struct RunCounts {
 /// finish(). Not thread-safe. Nothing throws; errors are reported as one line each by error().
 class RunWriter {
  public:
-  RunWriter() = default;
+  RunWriter();
   RunWriter(const RunWriter&) = delete;
   RunWriter& operator=(const RunWriter&) = delete;
   ~RunWriter();  ///< closes the files; does not finish()
@@ -51,7 +54,7 @@ class RunWriter {
   /// state: "finished", or "failed" with the reason.
   bool finish(const std::string& state, const std::string& reason);
 
-  bool is_open() const { return frames_fd_ >= 0; }
+  bool is_open() const;
   const std::string& path() const { return path_; }
   const std::string& error() const { return error_; }
   /// Sums over the non-warmup frames, in the order of the schemes.
@@ -67,7 +70,7 @@ class RunWriter {
   std::vector<std::string> scheme_names_;
   std::vector<SchemeStatistics> totals_;
   uint64_t measured_frames_ = 0;
-  int frames_fd_ = -1, schemes_fd_ = -1;
+  std::unique_ptr<AppendFile> frames_, schemes_;
   uint64_t last_json_ns_ = 0;
   std::string row_buffer_;
 };

@@ -1,0 +1,124 @@
+// Shim environment: finds out which driver libraries libglvnd would load, and puts ours in front of the
+// first.
+#include "tilepress/shim_environment.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace tilepress {
+namespace fs = std::filesystem;
+namespace {
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
+std::vector<std::string> split_path(const std::string& text) {
+  std::vector<std::string> parts;
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find(':', begin), text.size());
+    if (end > begin) parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+/// The vendor files of libglvnd's libEGL, in its order.
+std::vector<std::string> egl_vendor_files() {
+  std::vector<std::string> files = split_path(variable("__EGL_VENDOR_LIBRARY_FILENAMES"));
+  if (!files.empty()) return files;
+  std::vector<std::string> folders = split_path(variable("__EGL_VENDOR_LIBRARY_DIRS"));
+  if (folders.empty()) folders = {"/etc/glvnd/egl_vendor.d", "/usr/share/glvnd/egl_vendor.d"};
+  for (const std::string& folder : folders) {
+    std::vector<std::string> found;
+    std::error_code code;
+    for (const auto& entry : fs::directory_iterator(folder, code))
+      if (entry.path().extension() == ".json") found.push_back(entry.path().string());
+    std::sort(found.begin(), found.end());
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
+std::string library_of(const std::string& vendor_file) {
+  std::ifstream file(vendor_file);
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  if (!json.is_object() || !json.contains("ICD") || !json["ICD"].is_object()) return "";
+  const std::string library = json["ICD"].value("library_path", "");
+  const bool relative = library.find('/') != std::string::npos && library.front() != '/';
+  return relative ? (fs::path(vendor_file).parent_path() / library).string() : library;
+}
+
+/// Names X of the libGLX_X.so.0 in the system's library folders, without the fallback for indirect rendering.
+std::vector<std::string> glx_vendors() {
+  std::vector<std::string> names;
+  for (const char* folder :
+       {"/usr/lib/x86_64-linux-gnu", "/usr/lib/aarch64-linux-gnu", "/usr/lib64", "/usr/lib"}) {
+    std::error_code code;
+    for (const auto& entry : fs::directory_iterator(folder, code)) {
+      const std::string name = entry.path().filename().string();
+      if (!name.starts_with("libGLX_") || !name.ends_with(".so.0")) continue;
+      const std::string vendor = name.substr(7, name.size() - 12);
+      if (vendor != "indirect" && vendor != "system" && vendor != "tilepress") names.push_back(vendor);
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+fs::path vendor_folder(const std::string& preload_library) {
+  std::error_code code;
+  const fs::path beside = fs::path(preload_library).parent_path();
+  for (const fs::path& folder : {beside, beside / "tilepress"})
+    if (fs::exists(folder / "libEGL_tilepress.so.0", code) && fs::exists(folder / "egl_vendor.json", code))
+      return folder;
+  return {};
+}
+
+}  // namespace
+
+std::optional<ShimRoad> parse_shim_road(std::string_view text) {
+  if (text == "auto") return ShimRoad::kAuto;
+  if (text == "preload") return ShimRoad::kPreload;
+  if (text == "glvnd") return ShimRoad::kGlvnd;
+  return std::nullopt;
+}
+
+bool add_shim_environment(std::map<std::string, std::string>& environment, ShimRoad road,
+                          const std::string& preload_library, std::string& error) {
+  if (road != ShimRoad::kGlvnd) {
+    const std::string present = variable("LD_PRELOAD");
+    environment["LD_PRELOAD"] = present.empty() ? preload_library : preload_library + ":" + present;
+    if (road == ShimRoad::kPreload) return true;
+  }
+  const fs::path folder = vendor_folder(preload_library);
+  std::vector<std::string> files = egl_vendor_files();
+  const std::string egl_driver = files.empty() ? "" : library_of(files.front());
+  const std::vector<std::string> glx = glx_vendors();
+  const std::string glx_wish = variable("__GLX_VENDOR_LIBRARY_NAME");
+  // With several vendors it is the display that decides which one serves it: only the first can be passed on.
+  const bool certain = files.size() == 1 && glx.size() <= 1 && glx_wish.empty();
+  if (road == ShimRoad::kAuto && (folder.empty() || egl_driver.empty() || !certain)) return true;
+  if (folder.empty() || egl_driver.empty()) {
+    error = folder.empty() ? "--via glvnd: libEGL_tilepress.so.0: not found beside " + preload_library
+                           : "--via glvnd: no EGL vendor library is installed (libglvnd)";
+    return false;
+  }
+  std::string list = (folder / "egl_vendor.json").string();
+  for (size_t i = 1; i < files.size(); ++i) list += ":" + files[i];
+  environment["__EGL_VENDOR_LIBRARY_FILENAMES"] = list;
+  environment["TILEPRESS_EGL_VENDOR"] = egl_driver;
+  environment["__GLX_VENDOR_LIBRARY_NAME"] = "tilepress";
+  environment["TILEPRESS_GLX_VENDOR"] = !glx_wish.empty() ? glx_wish : glx.empty() ? "mesa" : glx.front();
+  const std::string libraries = variable("LD_LIBRARY_PATH");
+  environment["LD_LIBRARY_PATH"] = libraries.empty() ? folder.string() : folder.string() + ":" + libraries;
+  return true;
+}
+
+}  // namespace tilepress

@@ -1,0 +1,36 @@
+// EGL vendor: the second road in. libglvnd's libEGL loads this in place of the driver; it passes the driver
+// on and wraps what presents. Reaches programs that a preloaded library cannot: plugins opened with
+// RTLD_DEEPBIND.
+#include <EGL/egl.h>
+#include <dlfcn.h>
+#include <glvnd/libeglabi.h>
+#include <stdlib.h>
+
+#include "../preload/entry_points.h"
+#include "../preload/presenting.h"
+#include "../preload/real_dlsym.h"
+
+static void* (*driver_get_proc_address)(const char* name);
+
+static void* get_proc_address(const char* name) {
+  void* real = driver_get_proc_address(name);
+  const int entry = real != NULL ? tp_find_entry(name) : -1;
+  return entry >= 0 && entry != TP_EGL_GET_PROC_ADDRESS ? tp_bind((enum tp_entry)entry, real) : real;
+}
+
+__attribute__((visibility("default"))) EGLBoolean __egl_Main(uint32_t version, const __EGLapiExports* exports,
+                                                             __EGLvendorInfo* vendor,
+                                                             __EGLapiImports* imports) {
+  const char* driver_name = getenv("TILEPRESS_EGL_VENDOR");
+  void* driver =
+      dlopen(driver_name != NULL && *driver_name != 0 ? driver_name : "libEGL_mesa.so.0", RTLD_LAZY);
+  if (driver == NULL || tp_real_dlsym() == NULL) return EGL_FALSE;
+  __PFNEGLMAINPROC driver_main = (__PFNEGLMAINPROC)tp_real_dlsym()(driver, __EGL_MAIN_PROTO_NAME);
+  if (driver_main == NULL || !driver_main(version, exports, vendor, imports)) return EGL_FALSE;
+  driver_get_proc_address = imports->getProcAddress;
+  tp_driver_lookup[TILEPRESS_EGL] = imports->getProcAddress;
+  imports->getProcAddress = get_proc_address;
+  return EGL_TRUE;
+}
+
+const char* const tp_via = "glvnd";

@@ -1,0 +1,47 @@
+/* epoxy_picture FRAMES WIDTH HEIGHT: presents the known picture from a pbuffer, every call through libepoxy.
+ */
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+#include <stdlib.h>
+
+#include "known_picture.h"
+
+int main(int argc, char** argv) {
+  if (argc < 4) return 9;
+  const int frames = atoi(argv[1]), width = atoi(argv[2]), height = atoi(argv[3]);
+  const EGLint wanted[] = {EGL_RED_SIZE,
+                           8,
+                           EGL_GREEN_SIZE,
+                           8,
+                           EGL_BLUE_SIZE,
+                           8,
+                           EGL_ALPHA_SIZE,
+                           8,
+                           EGL_SURFACE_TYPE,
+                           EGL_PBUFFER_BIT,
+                           EGL_RENDERABLE_TYPE,
+                           EGL_OPENGL_ES2_BIT,
+                           EGL_NONE};
+  const EGLint wish[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
+  const EGLint size[] = {EGL_WIDTH, width, EGL_HEIGHT, height, EGL_NONE};
+  EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+  EGLConfig config = NULL;
+  EGLint count = 0;
+  if (!eglInitialize(display, NULL, NULL) || !eglChooseConfig(display, wanted, &config, 1, &count)) return 9;
+  EGLSurface surface = eglCreatePbufferSurface(display, config, size);
+  if (!eglMakeCurrent(display, surface, surface, eglCreateContext(display, config, EGL_NO_CONTEXT, wish)))
+    return 9;
+  for (int frame = 0; frame < frames; ++frame) {
+    known_box box[KNOWN_BOXES];
+    known_picture((unsigned)frame, width, height, box);
+    glEnable(GL_SCISSOR_TEST);
+    for (int i = 0; i < KNOWN_BOXES; ++i) {
+      const unsigned char* c = box[i].color;
+      glClearColor((float)c[0] / 255.0f, (float)c[1] / 255.0f, (float)c[2] / 255.0f, (float)c[3] / 255.0f);
+      glScissor(box[i].x, height - box[i].y - box[i].height, box[i].width, box[i].height);
+      glClear(GL_COLOR_BUFFER_BIT);
+    }
+    eglSwapBuffers(display, surface);
+  }
+  return 0;
+}

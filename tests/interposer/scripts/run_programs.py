@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""Runs real programs without and with the shim under an X server of its own and prints a table.
+
+  run_programs.py [--tilepress PATH] [--seconds N] [--via auto|preload|glvnd] [NAME...]
+
+Programs that are not installed are skipped with the package to install. Exit status 1 if a program that runs
+without the shim ends otherwise with it, or if fewer frames were captured than presented.
+"""
+import argparse
+import json
+import os
+import pathlib
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def programs(scratch):
+    for line in (HERE / "programs.txt").read_text().splitlines():
+        if line and not line.startswith("#"):
+            name, packages, command = (field.strip() for field in line.split("|", 2))
+            yield name, packages, shlex.split(command.format(here=HERE, scratch=scratch))
+
+
+def x_server():
+    read_end, write_end = os.pipe()
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "1024x1280x24", "-nolisten", "tcp"],
+        pass_fds=[write_end], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    os.close(write_end)
+    with os.fdopen(read_end) as pipe:
+        return server, ":" + pipe.readline().strip()
+
+
+def run_for(command, seconds, environment, log):
+    """Exit status of the command, ended by SIGTERM after `seconds`; a signal counts as 128 + its number."""
+    with open(log, "wb") as file:
+        process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=file, stderr=file,
+                                   start_new_session=True)
+    try:
+        process.wait(seconds)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGTERM)
+    try:
+        process.wait(10)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+    return process.returncode if process.returncode >= 0 else 128 - process.returncode
+
+
+def harvest(output):
+    totals = {"runs": 0, "seen": 0, "captured": 0, "rows": 0, "readback_ms": 0.0, "sizes": set(), "via": set()}
+    for run in sorted(pathlib.Path(output).glob("*/run.json")):
+        record = json.loads(run.read_text())
+        totals["runs"] += 1
+        totals["via"].add(record["via"])
+        for key in ("seen", "captured"):
+            totals[key] += record["counts"][key]
+        rows = (run.parent / "frames.csv").read_text().splitlines()
+        names = rows[0].split(",")
+        for row in rows[1:]:
+            fields = dict(zip(names, row.split(",")))
+            totals["rows"] += 1
+            totals["readback_ms"] += int(fields["readback_ns"]) / 1e6
+            totals["sizes"].add(f"{fields['width']}x{fields['height']} {fields['format']}")
+    return totals
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tilepress", default="tilepress")
+    parser.add_argument("--seconds", type=float, default=5)
+    parser.add_argument("--via", default="auto")
+    parser.add_argument("names", nargs="*")
+    arguments = parser.parse_args()
+    server, display = x_server()
+    scratch = tempfile.mkdtemp(prefix="tilepress-programs-")
+    environment = dict(os.environ, DISPLAY=display, HOME=scratch, XDG_RUNTIME_DIR=scratch)
+    environment["PATH"] += ":/usr/games"
+    os.environ["PATH"] = environment["PATH"]
+    environment.pop("WAYLAND_DISPLAY", None)
+    failures = 0
+    print("| program | frames | captured | status without / with | readback ms | surfaces | via | verdict |")
+    print("|---|---|---|---|---|---|---|---|")
+    try:
+        for name, packages, command in programs(scratch):
+            if arguments.names and name not in arguments.names:
+                continue
+            program = next(word for word in command if word != "env" and "=" not in word)
+            if shutil.which(program) is None:
+                print(f"| {name} | | | | | | | skipped: needs {packages} |", flush=True)
+                continue
+            without = run_for(command, arguments.seconds, environment, f"{scratch}/{name}.without")
+            output = f"{scratch}/{name}"
+            shimmed = [arguments.tilepress, "run", "-q", "-s", "vdcp", "--via", arguments.via, "-o", output, "--"] + command
+            status = run_for(shimmed, arguments.seconds + 2, environment, f"{scratch}/{name}.with")
+            totals = harvest(output)
+            # Frames in the queue when a signal ends a program are lost: at most three per process.
+            lost = totals["seen"] - totals["rows"]
+            good = totals["rows"] > 0 and lost <= 3 * totals["runs"] and status == without
+            failures += not good
+            mean = totals["readback_ms"] / max(1, totals["rows"])
+            print(f"| {name} | {totals['seen']} | {totals['rows']} | {without} / {status} | {mean:.2f} | "
+                  f"{', '.join(sorted(totals['sizes']))} | {', '.join(sorted(totals['via']))} | "
+                  f"{'good' if good else 'LOOK: ' + scratch} |", flush=True)
+    finally:
+        server.terminate()
+        server.wait()
+    if failures == 0:
+        shutil.rmtree(scratch, ignore_errors=True)
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
