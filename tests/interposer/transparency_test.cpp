@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <cstdio>
+
 #include "shim_process.h"
 
 namespace tilepress::testing {
@@ -106,6 +108,26 @@ TEST(Transparency, AForkedChildThatPresentsHasARunOfItsOwn) {
     EXPECT_EQ(std::min(frames[0], frames[1]), 6u) << end;
     EXPECT_EQ(std::max(frames[0], frames[1]), 8u) << end;
   }
+}
+
+TEST(Transparency, SurfacesAndContextsMadeAgainAndAgainLeakNothing) {
+  ShimTest test;
+  const ShimRun run =
+      test.run({TILEPRESS_EGL_SOAK, "1000"},
+               {{"TILEPRESS_SCHEME", "vdcp"}, {"TILEPRESS_DUMP", ""}, {"LP_NUM_THREADS", "0"}});
+  EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
+  long early_kib = 0, late_kib = 0;
+  int early_descriptors = 0, late_descriptors = 1;
+  ASSERT_EQ(sscanf(run.process.out.c_str(), "%ld KiB, %d descriptors\n%ld KiB, %d descriptors", &early_kib,
+                   &early_descriptors, &late_kib, &late_descriptors),
+            4)
+      << run.process.out;
+  // Ninety sets of surface, context and engine lie between the two: a leak of one frame (11 KiB at least) in
+  // each of the 900, or of one context (more than 100 KiB) in each set, would show.
+  EXPECT_LT(late_kib - early_kib, 6000) << run.process.out;
+  EXPECT_EQ(late_descriptors, early_descriptors);
+  ASSERT_EQ(run.runs.size(), 1u);
+  EXPECT_EQ(run.runs[0].json_number("captured"), 1000);
 }
 
 TEST(Transparency, OnlyTheFramesAskedForAreTaken) {
