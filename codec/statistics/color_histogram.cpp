@@ -11,8 +11,6 @@ void ColorHistogram::clear(size_t largest_size) {
   largest_size_ = largest_size;
   if (table_.empty() || table_.size() > largest_size_) {
     table_ = std::vector<Entry>(std::min<size_t>(1024, largest_size_));
-    shift_ = 64;
-    for (size_t size = table_.size(); size > 1; size /= 2) --shift_;
   } else {
     std::fill(table_.begin(), table_.end(), Entry{0, 0});
   }
@@ -22,12 +20,12 @@ void ColorHistogram::clear(size_t largest_size) {
 bool ColorHistogram::add(uint32_t color, uint32_t count) {
   for (;;) {
     size_t at = slot_of(color);
-    while (table_[at].count != 0 && table_[at].color != color) at = (at + 1) & (table_.size() - 1);
+    while (table_[at].count != 0 && table_[at].color != color) at = after(at);
     if (table_[at].count != 0) {
       table_[at].count += count;
       return true;
     }
-    if ((used_ + 1) * 4 <= table_.size() * 3) {
+    if ((used_ + 1) * 8 <= table_.size() * 7) {
       table_[at] = {color, count};
       ++used_;
       return true;
@@ -37,19 +35,18 @@ bool ColorHistogram::add(uint32_t color, uint32_t count) {
 }
 
 uint32_t ColorHistogram::count(uint32_t color) const {
-  for (size_t at = slot_of(color);; at = (at + 1) & (table_.size() - 1))
+  for (size_t at = slot_of(color);; at = after(at))
     if (table_[at].count == 0 || table_[at].color == color) return table_[at].count;
 }
 
 bool ColorHistogram::grow() {
-  if (table_.size() * 2 > largest_size_) return false;
-  std::vector<Entry> old(table_.size() * 2);
+  if (table_.size() >= largest_size_) return false;
+  std::vector<Entry> old(std::min(table_.size() * 2, largest_size_));
   old.swap(table_);
-  --shift_;
   for (const Entry& entry : old) {
     if (entry.count == 0) continue;
     size_t at = slot_of(entry.color);
-    while (table_[at].count != 0) at = (at + 1) & (table_.size() - 1);
+    while (table_[at].count != 0) at = after(at);
     table_[at] = entry;
   }
   return true;

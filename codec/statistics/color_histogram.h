@@ -23,16 +23,18 @@ class ColorHistogram {
   uint32_t count(uint32_t color) const;
   /// With empty slots in between.
   const std::vector<Entry>& table() const { return table_; }
+  /// Colours held.
+  size_t used() const { return used_; }
 
-  /// A well mixed word of a colour: the top bits choose the slot, the bottom bits are free for partitions.
+  /// A well mixed word of a colour: the top 32 bits choose the slot, those below are free for partitions.
   static uint64_t mix(uint32_t color) { return color * 0x9E3779B97F4A7C15ull; }
 
  private:
-  size_t slot_of(uint32_t color) const { return mix(color) >> shift_; }
+  size_t slot_of(uint32_t color) const { return (mix(color) >> 32) * table_.size() >> 32; }
+  size_t after(size_t slot) const { return slot + 1 == table_.size() ? 0 : slot + 1; }
   bool grow();
   std::vector<Entry> table_;
   size_t largest_size_ = 0;
-  uint32_t shift_ = 63;
   size_t used_ = 0;
 };
 

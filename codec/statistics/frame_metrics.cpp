@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <utility>
 
 #include "dcp/fvc.h"
@@ -14,7 +13,7 @@ namespace {
 /// Histograms of two frames together stay below one raw frame of 4 bytes a pixel.
 size_t largest_table(const PixelPlane& frame) {
   const size_t pixels = size_t{frame.width()} * frame.height();
-  return std::max<size_t>(1024, std::bit_floor(pixels / 4));
+  return std::max<size_t>(1024, pixels / 17 * 4);
 }
 
 /// Partition bits of a colour: not those that choose its slot.
@@ -79,26 +78,32 @@ void FrameMeter::add_part(bool compare, const Fvc& fvc, uint32_t mask, uint32_t 
       held_true_ += now_.count(fvc.color(slot));
 }
 
-FrameMetrics FrameMeter::measure(const PixelPlane& frame, const PixelPlane* before, const Fvc& fvc) {
-  largest_table_ = largest_table(frame);
+bool FrameMeter::count_in_parts(const PixelPlane& frame, const PixelPlane* before, const Fvc& fvc,
+                                uint32_t parts) {
   profile_.clear();
   gained_ = held_true_ = 0;
-  std::swap(now_, before_);
-  const bool whole = count_colors(frame, 0, 0, now_) &&
-                     (before == nullptr || before_valid_ || count_colors(*before, 0, 0, before_));
-  before_valid_ = whole;
-  if (whole) add_part(before != nullptr, fvc, 0, 0);
-  for (uint32_t parts = 2; !whole && profile_.colors() == 0; parts *= 2) {
-    for (uint32_t part = 0; part < parts; ++part) {
-      if (!count_colors(frame, parts - 1, part, now_) ||
-          (before != nullptr && !count_colors(*before, parts - 1, part, before_))) {
-        profile_.clear();  // still too many colours: again, with smaller parts
-        gained_ = held_true_ = 0;
-        break;
-      }
-      add_part(before != nullptr, fvc, parts - 1, part);
-    }
+  size_t fullest = 0;
+  for (uint32_t part = 0; part < parts; ++part) {
+    const bool kept = parts == 1 && before_valid_;  // before_ holds that frame already
+    if (!count_colors(frame, parts - 1, part, now_) ||
+        (before != nullptr && !kept && !count_colors(*before, parts - 1, part, before_)))
+      return false;
+    fullest = std::max({fullest, now_.used(), before_.used()});
+    add_part(before != nullptr, fvc, parts - 1, part);
   }
+  parts_ = fullest * 3 < largest_table_ && parts > 1 ? parts / 2 : parts;
+  return true;
+}
+
+FrameMetrics FrameMeter::measure(const PixelPlane& frame, const PixelPlane* before, const Fvc& fvc) {
+  largest_table_ = largest_table(frame);
+  std::swap(now_, before_);
+  uint32_t parts = parts_;
+  while (!count_in_parts(frame, before, fvc, parts)) {
+    parts *= 2;
+    before_valid_ = false;
+  }
+  before_valid_ = parts == 1;
   profile_.close();
 
   const double pixels = static_cast<double>(frame.width()) * frame.height();

@@ -21,10 +21,13 @@ class FrameMeter {
  private:
   /// Counts the colours of `frame` whose partition bits, under `mask`, equal `part`. False: no room.
   bool count_colors(const PixelPlane& frame, uint32_t mask, uint32_t part, ColorHistogram& out);
+  /// Counts both frames in `parts` parts, a power of two. False: no room even so.
+  bool count_in_parts(const PixelPlane& frame, const PixelPlane* before, const Fvc& fvc, uint32_t parts);
   /// Adds what the histograms of one part of the colours tell.
   void add_part(bool compare, const Fvc& fvc, uint32_t mask, uint32_t part);
 
   ColorHistogram now_, before_;
+  uint32_t parts_ = 1;         ///< parts that the colours are likely to need
   bool before_valid_ = false;  ///< before_ holds the frame measured last
   size_t largest_table_ = 0;
   CountProfile profile_;
