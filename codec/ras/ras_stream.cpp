@@ -125,7 +125,7 @@ uint32_t ras_stream_bits(const uint32_t* top_left, uint32_t stride, const Format
   int16_t samples[kRasSamples];
   RasPlanes planes;
   plane_widths(format, ycocg, planes);
-  const bool four_bytes = format.channel_bits == std::array<uint8_t, 4>{8, 8, 8, 8};
+  const bool four_bytes = format.channel_bits[0] == 8;  // then all four are
   if (four_bytes && !ycocg) {
     kernels().widen_bytes(top_left, stride, samples);
   } else {
