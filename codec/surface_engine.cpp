@@ -65,7 +65,8 @@ struct SurfaceEngine::State {
   bool has_before = false;
   bool opened = false;  ///< lanes and collectors are there
   bool needs_ras = false, needs_ras_ycocg = false;
-  std::span<CompressedSurface> surfaces;      ///< where this frame is stored; empty if nowhere
+  std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere
+  BlockBits* block_bits = nullptr;
   uint32_t burst_round = 0, burst_shift = 0;  ///< burst_bits is a power of two
 
   void open(const FormatTraits& format);
@@ -117,6 +118,13 @@ void SurfaceEngine::State::begin_frame(FrameStatistics& out) {
     if (collector.fast) collector.fast->reset();
   }
   out.schemes.assign(lanes.size(), SchemeStatistics{});
+  if (block_bits != nullptr) {
+    block_bits->blocks_x = now.blocks_x();
+    block_bits->blocks_y = now.blocks_y();
+    block_bits->raw_bits = kBlockPixels * traits(now.format()).pixel_bits;
+    block_bits->schemes.resize(lanes.size());
+    for (auto& plane : block_bits->schemes) plane.resize(now.blocks());
+  }
   for (size_t i = 0; i < lanes.size(); ++i) {
     Lane& lane = lanes[i];
     const Ccd* ccd = lane.collector != nullptr && lane.collector->has_ccd ? &lane.collector->ccd : nullptr;
@@ -185,6 +193,8 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
     context.ccd_largest = look_up ? lane.collector->largest.data() : nullptr;
     const uint32_t payload_bits = lane.encoder->measure(context);
     scheme.payload_bits += payload_bits;
+    if (block_bits != nullptr)
+      block_bits->schemes[i][size_t{by} * block_bits->blocks_x + bx] = static_cast<uint16_t>(payload_bits);
     scheme.bursts += (payload_bits + burst_round) >> burst_shift;
     lane.encoder->account(context, payload_bits, scheme);
     if (!surfaces.empty()) lane.store.put(*lane.encoder, context);
@@ -228,6 +238,10 @@ SurfaceEngine::SurfaceEngine(const std::vector<SchemeSpec>& schemes, const Model
 SurfaceEngine::~SurfaceEngine() = default;
 SurfaceEngine::SurfaceEngine(SurfaceEngine&&) noexcept = default;
 SurfaceEngine& SurfaceEngine::operator=(SurfaceEngine&&) noexcept = default;
+
+void SurfaceEngine::note_block_bits(BlockBits* bits) {
+  state_->block_bits = bits;
+}
 
 uint64_t SurfaceEngine::frames() const {
   return state_->ordinal;

@@ -47,6 +47,10 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   app.add_flag_callback(
       "--verify", [&options] { options.model.verify = true; },
       "Encode, decode and compare every block; a mismatch is exit 1");
+  add_text(app, options, "--heatmaps", "heatmaps", "every:N",
+           "Keep the bits of each block of every N-th frame, as DIR/heatmaps/*.pgm");
+  add_text(app, options, "--dump-frames", "dump-frames", "every:N",
+           "Keep the pixels of every N-th frame, as DIR/frames/*.png");
   add_text(app, options, "--log-level", "log-level", "LEVEL",
            "trace, debug, info, warn, error or off (default: warn)");
 }

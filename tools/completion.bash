@@ -25,6 +25,13 @@ _tilepress() {
         _tilepress_known[schemes]="$("$command" schemes --json 2>/dev/null | sed -n 's/^    "name": "\(.*\)",$/\1/p')"
       mapfile -t COMPREPLY < <(compgen -W "${_tilepress_known[schemes]}" -- "$current")
       return ;;
+    --format)
+      case $verb in
+        compare) mapfile -t COMPREPLY < <(compgen -W "text markdown csv" -- "$current") ;;
+        export) mapfile -t COMPREPLY < <(compgen -W "gem5 jsonl" -- "$current") ;;
+      esac
+      return ;;
+    --heatmaps | --dump-frames) mapfile -t COMPREPLY < <(compgen -W "every:" -- "$current"); return ;;
     --progress) mapfile -t COMPREPLY < <(compgen -W "auto never json" -- "$current"); return ;;
     --on-full) mapfile -t COMPREPLY < <(compgen -W "block drop" -- "$current"); return ;;
     --log-level) mapfile -t COMPREPLY < <(compgen -W "trace debug info warn error off" -- "$current"); return ;;

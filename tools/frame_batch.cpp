@@ -9,6 +9,8 @@
 #include <mutex>
 #include <thread>
 
+#include "tilepress/frame_pictures.h"
+
 namespace tilepress {
 namespace {
 
@@ -18,10 +20,11 @@ constexpr size_t kLongestRange = 64;
 class FrameBatch {
  public:
   FrameBatch(const ImageFrames& images, const std::vector<uint64_t>& numbers, const RunOptions& options,
-             uint32_t jobs)
+             const std::string& pictures_path, uint32_t jobs)
       : images_(images),
         numbers_(numbers),
         options_(options),
+        pictures_path_(pictures_path),
         range_(std::clamp<size_t>((numbers.size() + jobs - 1) / jobs, 1, kLongestRange)),
         ranges_((numbers.size() + range_ - 1) / range_) {}
 
@@ -60,7 +63,8 @@ class FrameBatch {
   }
 
   void work() {
-    Worker worker{images_.another(), {}, {}};
+    Worker worker{images_.another(), {}, {}, {}};
+    if (!pictures_path_.empty()) worker.pictures.open(pictures_path_, options_);
     for (size_t r; !stopping_ && (r = next_range_++) < ranges_.size();) {
       std::string error = run_range(worker, r);
       const std::lock_guard lock(mutex_);
@@ -75,6 +79,7 @@ class FrameBatch {
     ImageFrames images;
     ImageFrame frame;
     FrameStatistics statistics;
+    FramePictures pictures;
   };
 
   /// One line on failure, else empty.
@@ -83,9 +88,9 @@ class FrameBatch {
     const size_t begin = r * range_, end = std::min(begin + range_, numbers_.size());
     std::string error;
     for (uint64_t ordinal : engine.history(begin, worker.images.format()))
-      if (!run_frame(worker, engine, ordinal, error)) return error;
+      if (!run_frame(worker, engine, ordinal, false, error)) return error;
     for (size_t ordinal = begin; ordinal < end && !stopping_; ++ordinal) {
-      if (!run_frame(worker, engine, ordinal, error)) return error;
+      if (!run_frame(worker, engine, ordinal, true, error)) return error;
       const std::lock_guard lock(mutex_);
       ranges_[r].ready.push_back(worker.statistics);
       changed_.notify_all();
@@ -93,7 +98,8 @@ class FrameBatch {
     return {};
   }
 
-  bool run_frame(Worker& worker, SurfaceEngine& engine, uint64_t ordinal, std::string& error) {
+  /// `wanted`: false for a frame that only brings the engine up to date.
+  bool run_frame(Worker& worker, SurfaceEngine& engine, uint64_t ordinal, bool wanted, std::string& error) {
     ImageFrames& images = worker.images;
     ImageFrame& frame = worker.frame;
     FrameStatistics& statistics = worker.statistics;
@@ -111,13 +117,17 @@ class FrameBatch {
     statistics.frame = number;
     statistics.readback_ns = frame.decode_ns;
     engine.seek(ordinal);
+    engine.note_block_bits(wanted ? worker.pictures.bits_for(number) : nullptr);
     engine.process(view, statistics);
-    return true;
+    if (!wanted || worker.pictures.write(statistics, view)) return true;
+    error = worker.pictures.error();
+    return false;
   }
 
   const ImageFrames& images_;
   const std::vector<uint64_t>& numbers_;
   const RunOptions& options_;
+  const std::string& pictures_path_;
   const size_t range_;
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::atomic<size_t> next_range_ = 0;
@@ -130,9 +140,10 @@ class FrameBatch {
 }  // namespace
 
 bool run_frame_batch(const ImageFrames& images, const std::vector<uint64_t>& numbers,
-                     const RunOptions& options, uint32_t jobs,
+                     const RunOptions& options, const std::string& pictures_path, uint32_t jobs,
                      const std::function<bool(const FrameStatistics&)>& deliver, std::string& error) {
-  return FrameBatch(images, numbers, options, std::max(1u, jobs)).run(std::max(1u, jobs), deliver, error);
+  return FrameBatch(images, numbers, options, pictures_path, std::max(1u, jobs))
+      .run(std::max(1u, jobs), deliver, error);
 }
 
 }  // namespace tilepress

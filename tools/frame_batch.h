@@ -16,9 +16,10 @@ namespace tilepress {
 /// the calling thread. A frame depends on few frames before it, so the sequence is cut into ranges that run
 /// at once, each preceded by the frames its first one depends on: the results are the same for any number of
 /// jobs. False and one line in `error` if a frame cannot be read or `deliver` returns false; the frames
-/// before it have been delivered.
+/// before it have been delivered. The pictures that the options ask for go below `pictures_path`, unless it
+/// is empty.
 bool run_frame_batch(const ImageFrames& images, const std::vector<uint64_t>& numbers,
-                     const RunOptions& options, uint32_t jobs,
+                     const RunOptions& options, const std::string& pictures_path, uint32_t jobs,
                      const std::function<bool(const FrameStatistics&)>& deliver, std::string& error);
 
 }  // namespace tilepress

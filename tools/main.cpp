@@ -26,6 +26,8 @@ constexpr Verb kVerbs[] = {
     {"unpack", "restore the images of a packed file, or read a part and count bursts", verb_unpack},
     {"compose", "account the reads of several packed surfaces shown at once", verb_compose},
     {"cost", "storage, area, speed and energy of the structures", verb_cost},
+    {"top", "watch running captures", verb_top},
+    {"export", "a run as gem5 statistics or JSON lines", verb_export},
     {"schemes", "list the schemes and their options", verb_schemes},
     {"doctor", "tell what this machine offers and what is missing", verb_doctor},
 };

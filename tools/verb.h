@@ -15,6 +15,7 @@ int verb_compare(int argc, char** argv);
 int verb_compose(int argc, char** argv);
 int verb_cost(int argc, char** argv);
 int verb_doctor(int argc, char** argv);
+int verb_export(int argc, char** argv);
 int verb_frames(int argc, char** argv);
 int verb_info(int argc, char** argv);
 int verb_report(int argc, char** argv);
@@ -23,6 +24,7 @@ int verb_record(int argc, char** argv);
 int verb_replay(int argc, char** argv);
 int verb_run(int argc, char** argv);
 int verb_schemes(int argc, char** argv);
+int verb_top(int argc, char** argv);
 int verb_unpack(int argc, char** argv);
 
 }  // namespace tilepress

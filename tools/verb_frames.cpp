@@ -10,10 +10,12 @@
 #include "cdf_file.h"
 #include "command_line.h"
 #include "common_options.h"
+#include "dumped_frames.h"
 #include "frame_batch.h"
 #include "image_frames.h"
 #include "progress_line.h"
 #include "summary_table.h"
+#include "tilepress/frame_pictures.h"
 #include "tilepress/run_directory.h"
 #include "verb.h"
 
@@ -110,6 +112,8 @@ SurfaceView view_of(const ImageFrames& images, const ImageFrame& frame) {
 bool process_stream(ImageFrames& images, const FramesOptions& options, RowSink& sink, CdfFile& cdf,
                     RunRecord& record, ProgressLine& progress, std::string& error) {
   SurfaceEngine engine(options.run.schemes, options.run.model);
+  FramePictures pictures;
+  if (!options.to_stdout()) pictures.open(options.run.output, options.run);
   const auto begin = std::chrono::steady_clock::now();
   FrameStatistics statistics;
   ImageFrame frame;
@@ -128,7 +132,12 @@ bool process_stream(ImageFrames& images, const FramesOptions& options, RowSink& 
             .count());
     statistics.readback_ns = frame.decode_ns;
     const SurfaceView view = view_of(images, frame);
+    engine.note_block_bits(pictures.bits_for(number));
     engine.process(view, statistics);
+    if (!pictures.write(statistics, view)) {
+      error = pictures.error();
+      return false;
+    }
     if (options.wants_cdf(number) && !cdf.append(statistics, view, error)) return false;
     if (!take(statistics, sink, record, error)) return false;
     progress.show(number + 1, {});
@@ -162,7 +171,8 @@ bool process_frames(ImageFrames& images, const FramesOptions& options, RowSink& 
     progress.show(record.counts.captured, numbers.size());
     return true;
   };
-  return run_frame_batch(images, numbers, options.run, options.jobs, deliver, error);
+  return run_frame_batch(images, numbers, options.run, options.to_stdout() ? "" : options.run.output,
+                         options.jobs, deliver, error);
 }
 
 int parse(int argc, char** argv, FramesOptions& options, std::optional<int>& status) {
@@ -240,6 +250,7 @@ int verb_frames(int argc, char** argv) {
     good = false;
   }
   sink.finish(record.counts, good ? "finished" : "failed", error);
+  if (good && !options.to_stdout()) good = convert_dumped_frames(options.run.output, error);
   if (!options.quiet && record.counts.captured > 0) {
     std::string title = "frames";
     std::fputs(summary_table(record, title).c_str(), stderr);

@@ -8,6 +8,7 @@
 
 #include "command_line.h"
 #include "common_options.h"
+#include "dumped_frames.h"
 #include "printable.h"
 #include "progress_line.h"
 #include "replay_tables.h"
@@ -158,6 +159,11 @@ int tell_failures(const ReplayBatch& batch) {
   for (const auto& replay : batch.replays()) {
     const ReplayResult& result = replay->result();
     captured += result.frames_captured;
+    std::string error;
+    if (!result.run.path.empty() && !convert_dumped_frames(result.run.path, error)) {
+      failed = true;
+      fail(kExitFailed, error);
+    }
     if (result.status == ReplayStatus::kDone || result.status == ReplayStatus::kKept) continue;
     nothing |= result.status == ReplayStatus::kNothingCaptured;
     failed |= result.status != ReplayStatus::kNothingCaptured;

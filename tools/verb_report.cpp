@@ -1,10 +1,10 @@
 // tilepress report: one page about one run or many.
 #include <fnmatch.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,6 +19,8 @@ namespace {
 
 /// Values in all line charts of a page together; keeps a page of any batch below 10 MB.
 constexpr size_t kPointBudget = 600000;
+/// Frames with pictures on a page together, and of one run.
+constexpr size_t kPictureBudget = 32, kPicturesPerRun = 8;
 
 struct ReportOptions {
   std::vector<std::string> runs;
@@ -44,11 +46,14 @@ bool summarise_all(const std::vector<BatchEntry>& entries, std::vector<RunSummar
   out.resize(entries.size());
   std::vector<std::string> errors(entries.size());
   std::atomic<size_t> next{0};
+  const size_t pictures_per_run = std::clamp<size_t>(kPictureBudget / entries.size(), 1, kPicturesPerRun);
   const auto work = [&] {
     for (size_t i = next++; i < entries.size(); i = next++) {
       RunRecord run;
-      if (read_run(entries[i].path, run, errors[i]))
+      if (read_run(entries[i].path, run, errors[i])) {
         out[i] = summarise_run(run, entries[i].name, kPointBudget / entries.size());
+        out[i].pictures = load_pictures(run, pictures_per_run);
+      }
     }
   };
   std::vector<std::thread> threads(

@@ -11,6 +11,7 @@
 #include "child_process.h"
 #include "command_line.h"
 #include "common_options.h"
+#include "dumped_frames.h"
 #include "program_kind.h"
 #include "session_folder.h"
 #include "shim_path.h"
@@ -136,6 +137,7 @@ Harvest harvest(const SessionFolder& session, const ChildEnd& child, bool quiet)
       out.failures.push_back(error);
       continue;
     }
+    if (!running && !convert_dumped_frames(process.run_path, error)) out.failures.push_back(error);
     out.captured += record.frames.size();
     out.seen += record.counts.seen;
     for (const FrameStatistics& frame : record.frames)

@@ -62,7 +62,10 @@ void CaptureWorker::run() {
       }
       if (writer_.is_open()) publish_counts();
     }
-    if (alive() && writer_.is_open()) writer_.finish("finished", "");
+    if (alive() && writer_.is_open()) {
+      writer_.finish("finished", "");
+      live_.close();
+    }
   } catch (const std::exception& error) {
     give_up(error.what());
   }
@@ -77,6 +80,8 @@ bool CaptureWorker::create_directory() {
   if (!writer_.create(path, info_, options_)) return false;
   if (!presents_.create(path + "/presents.csv", "frame,surface,readback_ns,read_ns,wait_ns,damage\n"))
     return false;
+  pictures_.open(path, options_);
+  live_.open(path, info_, options_);
   note_run_folder(path, info_.pid);
   log_.write(LogLevel::kInfo, path + ": run started");
   return true;
@@ -93,11 +98,15 @@ void CaptureWorker::process(const CapturedFrame& frame) {
   statistics_.surface = frame.surface;
   statistics_.time_ns = frame.time_ns;
   statistics_.readback_ns = frame.readback_ns;
+  found->second.engine.note_block_bits(pictures_.bits_for(frame.frame));
   found->second.engine.process(frame.view, statistics_);
+  if (!pictures_.write(statistics_, frame.view)) return give_up(pictures_.error());
   dump_frame(frame, log_);
   if (!append_present(frame)) return give_up(writer_.path() + "/presents.csv: cannot be written");
   if (!writer_.append(statistics_)) return give_up(writer_.error());
   ++counts_.captured;
+  // Without the frame in hand: it is pending until the queue has it back.
+  live_.update(statistics_, writer_.totals(), counts_now(), queue_.pending() - 1, kQueueDepth);
 }
 
 bool CaptureWorker::append_present(const CapturedFrame& frame) {
@@ -108,7 +117,7 @@ bool CaptureWorker::append_present(const CapturedFrame& frame) {
   return presents_.append(row + frame.damage + "\n");
 }
 
-void CaptureWorker::publish_counts() {
+RunCounts CaptureWorker::counts_now() const {
   RunCounts counts;
   counts.seen = counts_.seen;
   counts.captured = counts_.captured;
@@ -116,7 +125,11 @@ void CaptureWorker::publish_counts() {
   counts.skipped = counts_.skipped;
   counts.unsupported = counts_.unsupported;
   counts.not_captured = counts_.not_captured;
-  writer_.set_counts(counts);
+  return counts;
+}
+
+void CaptureWorker::publish_counts() {
+  writer_.set_counts(counts_now());
   if (counts_.roads == (kRoadPreload | kRoadGlvnd) && info_.via != "preload+glvnd") {
     info_.via = "preload+glvnd";
     writer_.set_info(info_);
@@ -128,6 +141,7 @@ void CaptureWorker::give_up(const std::string& reason) {
   if (writer_.is_open()) {
     publish_counts();
     writer_.finish("failed", reason);
+    live_.close();
   }
   alive_ = false;
   while (!queue_.close()) {

@@ -10,6 +10,8 @@
 #include "interposer/engine/frame_queue.h"
 #include "interposer/engine/shim_log.h"
 #include "interposer/run/append_file.h"
+#include "tilepress/frame_pictures.h"
+#include "tilepress/live_page.h"
 #include "tilepress/run_directory.h"
 #include "tilepress/surface_engine.h"
 
@@ -47,6 +49,7 @@ class CaptureWorker {
   void process(const CapturedFrame& frame);
   bool append_present(const CapturedFrame& frame);
   void publish_counts();
+  RunCounts counts_now() const;
   void give_up(const std::string& reason);
 
   const RunOptions options_;
@@ -55,7 +58,9 @@ class CaptureWorker {
   const ShimLog& log_;
   FrameQueue queue_;
   RunWriter writer_;
-  AppendFile presents_;                   ///< presents.csv
+  AppendFile presents_;  ///< presents.csv
+  FramePictures pictures_;
+  LiveWriter live_;
   std::map<uint32_t, Surface> surfaces_;  ///< by window
   FrameStatistics statistics_;
   std::thread thread_;

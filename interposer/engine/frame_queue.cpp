@@ -97,4 +97,9 @@ bool FrameQueue::closed_and_empty() {
   return closed_ && ready_.empty();
 }
 
+uint32_t FrameQueue::pending() {
+  const std::lock_guard lock(mutex_);
+  return pending_;
+}
+
 }  // namespace tilepress

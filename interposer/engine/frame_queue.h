@@ -34,6 +34,8 @@ class FrameQueue {
   /// had within a second: the caller may be a signal handler on top of a thread that holds it.
   bool close();
   bool closed_and_empty();
+  /// Frames submitted that the worker has not finished.
+  uint32_t pending();
 
  private:
   const uint32_t depth_;

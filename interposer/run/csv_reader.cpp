@@ -1,5 +1,5 @@
 // CSV reader: one pass over the bytes, quotes as RFC 4180 has them.
-#include "run/csv_reader.h"
+#include "tilepress/csv_reader.h"
 
 namespace tilepress {
 

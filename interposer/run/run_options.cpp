@@ -102,6 +102,25 @@ bool set_every(RunOptions& options, std::string_view& value, std::string& reason
   return parse_count(value, 1, 0xFFFFFFFFu, options.every, reason);
 }
 
+/// "every:N", or nothing for none.
+bool parse_picture_rule(std::string_view value, uint64_t& every, std::string& reason) {
+  if (value.empty()) {
+    every = 0;
+    return true;
+  }
+  if (value.starts_with("every:")) return parse_count(value.substr(6), 1, 0xFFFFFFFFu, every, reason);
+  reason = "not of the form every:N";
+  return false;
+}
+
+bool set_heatmaps(RunOptions& options, std::string_view& value, std::string& reason) {
+  return parse_picture_rule(value, options.heatmaps_every, reason);
+}
+
+bool set_dump_frames(RunOptions& options, std::string_view& value, std::string& reason) {
+  return parse_picture_rule(value, options.dump_frames_every, reason);
+}
+
 bool set_on_full(RunOptions& options, std::string_view& value, std::string& reason) {
   if (value != "block" && value != "drop") {
     reason = "neither block nor drop";
@@ -149,6 +168,8 @@ constexpr OptionEntry kOptions[] = {
     {"frames", "TILEPRESS_FRAMES", set_frames},
     {"every", "TILEPRESS_EVERY", set_every},
     {"verify", "TILEPRESS_VERIFY", set_verify},
+    {"heatmaps", "TILEPRESS_HEATMAPS", set_heatmaps},
+    {"dump-frames", "TILEPRESS_DUMP_FRAMES", set_dump_frames},
     {"on-full", "TILEPRESS_ON_FULL", set_on_full},
     {"log-level", "TILEPRESS_LOG_LEVEL", set_log_level},
     {"log-file", "TILEPRESS_LOG_FILE", set_log_file},
@@ -161,6 +182,10 @@ std::string scheme_list(const std::vector<SchemeSpec>& schemes) {
     list += spec.text;
   }
   return list;
+}
+
+std::string picture_rule(uint64_t every) {
+  return every == 0 ? "" : "every:" + std::to_string(every);
 }
 
 }  // namespace
@@ -186,6 +211,8 @@ std::map<std::string, std::string> to_environment(const RunOptions& options) {
       {"TILEPRESS_FRAMES", options.frames.text()},
       {"TILEPRESS_EVERY", std::to_string(options.every)},
       {"TILEPRESS_VERIFY", options.model.verify ? "1" : "0"},
+      {"TILEPRESS_HEATMAPS", picture_rule(options.heatmaps_every)},
+      {"TILEPRESS_DUMP_FRAMES", picture_rule(options.dump_frames_every)},
       {"TILEPRESS_ON_FULL", options.on_full == OnFull::kBlock ? "block" : "drop"},
       {"TILEPRESS_LOG_LEVEL", options.log_level},
       {"TILEPRESS_LOG_FILE", options.log_file},

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "run/csv_reader.h"
+#include "tilepress/csv_reader.h"
 #include "tilepress/run_reader.h"
 
 namespace tilepress {

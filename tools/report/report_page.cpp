@@ -78,7 +78,8 @@ std::string report_page(const Batch& batch, const std::string& title) {
                                     {"uplot_licence", std::string(kUplotLicence)},
                                     {"style", std::string(kPageStyle)},
                                     {"script", std::string(kPageScript)},
-                                    {"markers", marker_definitions()},
+                                    {"markers", marker_definitions() + "<linearGradient id=\"heat-scale\">" +
+                                                    heat_scale_stops() + "</linearGradient>"},
                                     {"nav", nav},
                                     {"sections", sections},
                                     {"series", series_json(batch)},

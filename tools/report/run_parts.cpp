@@ -22,6 +22,35 @@ Table totals_table(const RunSummary& run, size_t index) {
   return table;
 }
 
+std::string pictures_html(const RunSummary& run) {
+  if (run.pictures.empty()) return "";
+  std::string out =
+      "<h3>Frames and bits per block</h3>\n<p class=\"note\">A cell is an 8×8 block: <svg class=\"scale\" "
+      "role=\"img\" "
+      "aria-label=\"colour scale from dark, 0 bits, to yellow, not compressed\"><rect width=\"100%\" "
+      "height=\"100%\" fill=\"url(#heat-scale)\"/></svg> 0 bits "
+      "to not compressed. "
+      "Pictures are shrunk; the run's folders frames and heatmaps have them in full.</p>\n<div "
+      "class=\"pictures\">\n";
+  for (const RunPicture& picture : run.pictures) {
+    out += fmt::format("<figure><figcaption>frame {}, surface {}</figcaption><div class=\"row\">",
+                       picture.frame, picture.surface);
+    if (!picture.thumbnail.empty())
+      out += fmt::format(
+          "<div class=\"shot\"><img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"frame {}\">frame</div>",
+          picture.thumbnail, picture.width, picture.height, picture.frame);
+    for (const HeatMap& map : picture.heat_maps)
+      out += fmt::format(
+          "<div class=\"shot\"><img class=\"heat\" src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}: {:.1f} of "
+          "{} bits per block on "
+          "average, {} at most\">{}</div>",
+          map.image, picture.width, picture.height, escape_html(map.scheme), map.mean_bits, map.raw_bits,
+          map.most_bits, escape_html(map.scheme));
+    out += "</div></figure>\n";
+  }
+  return out + "</div>\n";
+}
+
 }  // namespace
 
 std::string run_parts(const Batch& batch) {
@@ -47,7 +76,7 @@ std::string run_parts(const Batch& batch) {
            csv_button(table.id, file_slug(run.name) + "-totals.csv") + "</div>\n";
     if (run.measured == 0)
       out += "<p class=\"warn\">No frame of this run was measured: there is nothing to draw.</p>\n";
-    out += "<div class=\"line-charts\"></div>\n</section>\n";
+    out += "<div class=\"line-charts\"></div>\n" + pictures_html(run) + "</section>\n";
   }
   return out + "</section>\n";
 }

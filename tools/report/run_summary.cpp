@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 
+#include "cdf_plot.h"
 #include "html_text.h"
 #include "run_batch.h"
 
@@ -175,6 +177,12 @@ RunSummary summarise_run(const RunRecord& run, const std::string& name, size_t p
   const size_t max_points = std::clamp(point_budget / lines, kMinPoints, kMaxPoints);
   for (const auto& [surface, frames] : surfaces)
     out.surfaces.push_back(plots_of(run, file_slug(name), frames, max_points));
+  for (CdfPlot& cdf : load_cdf_plots(run.path, file_slug(name))) {
+    const auto place = surfaces.find(cdf.surface);
+    if (place == surfaces.end()) continue;
+    const auto position = static_cast<size_t>(std::distance(surfaces.begin(), place));
+    out.surfaces[position].plots.push_back(std::move(cdf.plot));
+  }
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "line_plot.h"
+#include "run_pictures.h"
 #include "tilepress/run_reader.h"
 #include "tilepress/statistics.h"
 
@@ -38,6 +39,7 @@ struct RunSummary {
   std::vector<std::string> schemes;
   std::vector<SchemeStatistics> totals;  ///< over the measured frames, in the order of schemes
   std::vector<SurfacePlots> surfaces;
+  std::vector<RunPicture> pictures;
 
   /// Position of a scheme by its full text, or schemes.size().
   size_t find(const std::string& scheme) const;

@@ -22,6 +22,13 @@ struct ModelOptions {
   bool frame_metrics = true;  ///< off: FrameStatistics::metrics stays zero
 };
 
+/// Payload bits of each block of a frame, what a heat map shows.
+struct BlockBits {
+  uint32_t blocks_x = 0, blocks_y = 0;
+  uint32_t raw_bits = 0;                       ///< of a block that is not compressed
+  std::vector<std::vector<uint16_t>> schemes;  ///< in their order; blocks in raster order
+};
+
 /// State of one surface: the frame before, and one FVC and one CCD per FVC configuration in use.
 /// A surface is a buffer with a size and a pixel format (spec §1): a buffer of another shape is another
 /// surface and needs an engine of its own. Not thread-safe; engines are independent of each other.
@@ -39,6 +46,9 @@ class SurfaceEngine {
   /// The same, and stores the frame as each scheme leaves it in memory: one surface per scheme, in their
   /// order.
   void process(const SurfaceView& frame, FrameStatistics& out, std::span<CompressedSurface> surfaces);
+
+  /// From the next process() on also fills `bits`, which must outlive it; null ends that.
+  void note_block_bits(BlockBits* bits);
 
   /// Number of frames processed, or the last seek() and the frames since.
   uint64_t frames() const;

@@ -41,6 +41,8 @@ struct RunOptions {
   ModelOptions model;  ///< tile, burst, verify
   FrameSet frames;     ///< frame numbers to take, per surface
   uint64_t every = 1;  ///< of those, every n-th frame number (frame % every == 0)
+  uint64_t heatmaps_every = 0;     ///< a heat map of every n-th frame number; 0 = none
+  uint64_t dump_frames_every = 0;  ///< the pixels of every n-th frame number; 0 = none
   OnFull on_full = OnFull::kBlock;
   std::string output;  ///< -o DIR; absolute where it goes into an environment
   std::string log_level = "warn";
@@ -50,7 +52,7 @@ struct RunOptions {
 };
 
 /// Sets one option by its long name without dashes ("scheme", "tile", "burst", "frames", "every", "verify",
-/// "on-full", "log-level", "log-file", "output"). "scheme" takes a space-separated list and replaces the
+/// "heatmaps", "dump-frames", "on-full", "log-level", "log-file", "output"). "scheme" takes a space-separated list and replaces the
 /// schemes. Returns false and one line in `error` for an unknown name or a value out of range.
 bool set_run_option(RunOptions& options, std::string_view name, std::string_view value, std::string& error);
 

@@ -5,6 +5,7 @@
   const series = JSON.parse(document.getElementById('series').textContent);
   const style = name => getComputedStyle(root).getPropertyValue(name).trim();
   const dashes = [[], [8, 3], [2, 3], [10, 3, 2, 3], [5, 2], [1, 2], [14, 4], [4, 4, 1, 4]];
+  const wholeSteps = [0, 1, 2, 3, 4, 5, 6, 7, 8].flatMap(power => [1, 2, 5].map(digit => digit * 10 ** power));
   const live = new Set();
 
   const element = (tag, attributes, ...children) => {
@@ -40,7 +41,7 @@
       width: target.clientWidth, height: narrow ? 250 : 300,
       scales: {x: {time: false, distr: plot.x_log ? 3 : 1},
                y: {range: (u, low, high) => plot.y_max ? [0, plot.y_max] : [0, high > 0 ? high * 1.05 : 1]}},
-      axes: [{...axis, label: plot.x_unit, labelSize: 20, size: 30, space: narrow ? 55 : 70,
+      axes: [{...axis, label: plot.x_unit, ...(plot.x_log ? {} : {incrs: wholeSteps}), labelSize: 20, size: 30, space: narrow ? 55 : 70,
               values: (u, ticks) => ticks.map(tick => tick == null || tick % 1 ? '' : String(tick))},
              {...axis, label: plot.y_unit, labelSize: 20, size: 48}],
       series: [{label: plot.x_name, value: (u, value) => shown(value)},

@@ -1,0 +1,89 @@
+// Live page: what a running capture tells others, in a small file that both sides map into memory.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tilepress/run_directory.h"
+#include "tilepress/statistics.h"
+
+namespace tilepress {
+
+constexpr uint32_t kLiveVersion = 1;
+constexpr size_t kLiveSchemes = 16;        ///< schemes past these are not shown
+constexpr size_t kLiveNameBytes = 64;      ///< with the closing zero
+constexpr const char* kLiveFile = "live";  ///< in the run directory, from the first frame until the run ends
+
+/// Sums and the last frame of one scheme.
+struct LiveScheme {
+  char name[kLiveNameBytes];
+  uint64_t raw_bits, moved_bits;              ///< over all measured frames
+  uint64_t frame_raw_bits, frame_moved_bits;  ///< of the last frame
+};
+
+/// A snapshot of a capture. Plain numbers only: the file may be read by another build of another version.
+struct LiveState {
+  char program[kLiveNameBytes];
+  int64_t pid;
+  uint64_t seen, captured, dropped, skipped, unsupported, not_captured;
+  uint64_t queued, queue_depth;  ///< frames waiting for the worker, and how many may wait
+  uint64_t frame, surface;       ///< the last frame
+  uint64_t width, height;
+  uint64_t time_ns;                 ///< when it was presented, since the run began
+  uint64_t readback_ns, encode_ns;  ///< of the last frame
+  uint64_t readback_sum_ns, encode_sum_ns;
+  double fvc_coverage, pixel_change;  ///< of the last frame
+  uint64_t scheme_count;
+  LiveScheme schemes[kLiveSchemes];
+};
+
+/// The file's contents. A writer makes `sequence` odd while it changes `state`.
+struct LivePage {
+  char magic[8];  ///< "TPLIVE\0\0"
+  uint32_t version;
+  uint32_t size;  ///< sizeof(LivePage)
+  std::atomic<uint64_t> sequence;
+  LiveState state;
+};
+static_assert(std::atomic<uint64_t>::is_always_lock_free);
+
+/// The capture's side. A page that cannot be made is no error: the run goes on without.
+class LiveWriter {
+ public:
+  LiveWriter() = default;
+  LiveWriter(const LiveWriter&) = delete;
+  LiveWriter& operator=(const LiveWriter&) = delete;
+  ~LiveWriter();
+  void open(const std::string& run_path, const RunInfo& info, const RunOptions& options);
+  /// After each frame. `totals`: the run's sums, in the order of the schemes.
+  void update(const FrameStatistics& frame, const std::vector<SchemeStatistics>& totals,
+              const RunCounts& counts, uint64_t queued, uint64_t queue_depth);
+  /// Ends the page: the file goes.
+  void close();
+
+ private:
+  LivePage* page_ = nullptr;
+  std::string path_;
+  uint64_t readback_sum_ns_ = 0, encode_sum_ns_ = 0;
+};
+
+/// The watcher's side: opened read-only, so that it cannot disturb the capture.
+class LiveReader {
+ public:
+  LiveReader() = default;
+  LiveReader(const LiveReader&) = delete;
+  LiveReader& operator=(const LiveReader&) = delete;
+  ~LiveReader();
+  /// False and one line in `error` if the run has no page of this version.
+  bool open(const std::string& run_path, std::string& error);
+  /// A consistent copy. False if none could be had (the writer died while writing).
+  bool read(LiveState& out) const;
+
+ private:
+  const LivePage* page_ = nullptr;
+};
+
+}  // namespace tilepress

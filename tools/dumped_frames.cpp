@@ -1,0 +1,68 @@
+// Dumped frames: sizes come from frames.csv, pixels from the raw files.
+#include "dumped_frames.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <vector>
+
+#include "tilepress/run_reader.h"
+
+namespace tilepress {
+namespace {
+namespace fs = std::filesystem;
+
+bool write_png(const fs::path& raw, const fs::path& png, const FrameStatistics& frame, std::string& error) {
+  std::ifstream file(raw, std::ios::binary);
+  const std::vector<char> bytes(std::istreambuf_iterator<char>(file), {});
+  if (bytes.size() != size_t{frame.width} * frame.height * 4) {
+    error = raw.string() + ": not " + std::to_string(frame.width) + "x" + std::to_string(frame.height) +
+            " pixels";
+    return false;
+  }
+  const int channels = frame.format == PixelFormat::kRgba8 ? 4 : 3;
+  OIIO::ImageSpec spec(static_cast<int>(frame.width), static_cast<int>(frame.height), channels,
+                       OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  auto out = OIIO::ImageOutput::create(png.string());
+  if (out == nullptr || !out->open(png.string(), spec) ||
+      !out->write_image(OIIO::TypeDesc::UINT8, bytes.data(), 4) || !out->close()) {
+    error = png.string() + ": " + (out != nullptr ? out->geterror() : OIIO::geterror());
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool convert_dumped_frames(const std::string& run_path, std::string& error) {
+  const fs::path folder = fs::path(run_path) / "frames";
+  std::error_code code;
+  std::vector<fs::path> raws;
+  for (const auto& entry : fs::directory_iterator(folder, code))
+    if (entry.path().extension() == ".rgba") raws.push_back(entry.path());
+  if (raws.empty()) return true;
+  RunRecord run;
+  if (!read_run(run_path, run, error)) return false;
+  std::map<std::pair<unsigned long, unsigned long>, const FrameStatistics*> frames;
+  for (const FrameStatistics& frame : run.frames) frames[{frame.surface, frame.frame}] = &frame;
+  std::sort(raws.begin(), raws.end());
+  for (const fs::path& raw : raws) {
+    unsigned long surface = 0, number = 0;
+    if (std::sscanf(raw.stem().c_str(), "%lu-%lu", &surface, &number) != 2) continue;
+    const auto frame = frames.find({surface, number});
+    // A frame without rows was cut off with its program: its pixels may be, too.
+    if (frame == frames.end() || traits(frame->second->format).channel_bits[0] != 8) continue;
+    fs::path png = raw;
+    if (!write_png(raw, png.replace_extension(".png"), *frame->second, error)) return false;
+    fs::remove(raw, code);
+  }
+  return true;
+}
+
+}  // namespace tilepress

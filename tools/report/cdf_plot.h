@@ -1,0 +1,22 @@
+// CDF plot: the share of pixels that the most frequent colours cover, from a run's cdf.csv.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "line_plot.h"
+
+namespace tilepress {
+
+struct CdfPlot {
+  uint32_t surface = 0;
+  LinePlot plot;
+};
+
+/// One plot per surface in <run_path>/cdf.csv, with a line for each of up to six of its frames, spread
+/// evenly. Ranks are taken at 1 … 10 and then in steps of about a tenth; every value is a cell of the file.
+/// Empty without the file, or if it is none.
+std::vector<CdfPlot> load_cdf_plots(const std::string& run_path, const std::string& slug);
+
+}  // namespace tilepress

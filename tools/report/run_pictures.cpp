@@ -1,0 +1,195 @@
+// Run pictures: box filter for thumbnails, PGM reader and a dark-to-yellow colour map for heat maps.
+#include "run_pictures.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+namespace tilepress {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr uint32_t kShownSide = 240;
+constexpr uint32_t kMaxSamples = 1u << 26;
+
+/// Nine colours of the viridis map, evenly spaced: brightness alone tells the order.
+constexpr std::array<std::array<uint8_t, 3>, 9> kViridis = {{{68, 1, 84},
+                                                             {71, 44, 122},
+                                                             {59, 81, 139},
+                                                             {44, 113, 142},
+                                                             {33, 144, 141},
+                                                             {39, 173, 129},
+                                                             {92, 200, 99},
+                                                             {170, 220, 50},
+                                                             {253, 231, 37}}};
+
+std::array<uint8_t, 3> heat_color(double share) {
+  const double place = std::clamp(share, 0.0, 1.0) * (kViridis.size() - 1);
+  const size_t low = std::min<size_t>(static_cast<size_t>(place), kViridis.size() - 2);
+  const double part = place - static_cast<double>(low);
+  std::array<uint8_t, 3> out{};
+  for (size_t c = 0; c < 3; ++c)
+    out[c] = static_cast<uint8_t>(std::lround(kViridis[low][c] * (1 - part) + kViridis[low + 1][c] * part));
+  return out;
+}
+
+std::string base64(const std::vector<unsigned char>& bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    const size_t left = std::min<size_t>(3, bytes.size() - i);
+    uint32_t group = 0;
+    for (size_t k = 0; k < 3; ++k) group = group << 8 | (k < left ? bytes[i + k] : 0u);
+    for (size_t k = 0; k < 4; ++k) out += k <= left ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+/// A data URI of an RGB picture; empty on failure.
+std::string png_uri(const std::vector<uint8_t>& pixels, uint32_t width, uint32_t height) {
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  auto out = OIIO::ImageOutput::create("png");
+  if (out == nullptr) return "";
+  OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("png:compressionLevel", 9);
+  if (!out->set_ioproxy(&memory) || !out->open("memory.png", spec) ||
+      !out->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !out->close())
+    return "";
+  return "data:image/png;base64," + base64(bytes);
+}
+
+std::string thumbnail_of(const std::string& path, RunPicture& picture) {
+  OIIO::ImageSpec wishes;
+  wishes.attribute("oiio:UnassociatedAlpha", 1);
+  auto input = OIIO::ImageInput::open(path, &wishes);
+  if (input == nullptr || input->spec().nchannels < 3) return "";
+  const uint32_t width = static_cast<uint32_t>(input->spec().width),
+                 height = static_cast<uint32_t>(input->spec().height);
+  const size_t channels = static_cast<size_t>(input->spec().nchannels);
+  std::vector<uint8_t> pixels(size_t{width} * height * channels);
+  if (!input->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::UINT8, pixels.data()))
+    return "";
+  std::vector<uint8_t> small;
+  for (uint32_t y = 0; y < picture.height; ++y)
+    for (uint32_t x = 0; x < picture.width; ++x) {
+      // Mean over the source pixels that this one covers; alpha is left out, as on a screen.
+      const uint32_t x0 = x * width / picture.width, x1 = std::max(x0 + 1, (x + 1) * width / picture.width);
+      const uint32_t y0 = y * height / picture.height,
+                     y1 = std::max(y0 + 1, (y + 1) * height / picture.height);
+      uint64_t sum[3] = {};
+      for (uint32_t sy = y0; sy < y1; ++sy)
+        for (uint32_t sx = x0; sx < x1; ++sx)
+          for (size_t c = 0; c < 3; ++c) sum[c] += pixels[(size_t{sy} * width + sx) * channels + c];
+      const uint64_t count = uint64_t{x1 - x0} * (y1 - y0);
+      for (size_t c = 0; c < 3; ++c) small.push_back(static_cast<uint8_t>((sum[c] + count / 2) / count));
+    }
+  return png_uri(small, picture.width, picture.height);
+}
+
+/// Reads one heat map as FramePictures writes it. False if the file is none.
+bool read_heat_map(const std::string& path, HeatMap& out) {
+  std::ifstream file(path, std::ios::binary);
+  std::string magic, comment;
+  uint32_t width = 0, height = 0;
+  char space = 0;
+  constexpr std::string_view kMark = "# scheme ";
+  if (!std::getline(file, magic) || magic != "P5" || !std::getline(file, comment) ||
+      !comment.starts_with(kMark))
+    return false;
+  if (!(file >> width >> height >> out.raw_bits) || !file.get(space) || out.raw_bits == 0) return false;
+  const uint64_t count = uint64_t{width} * height;
+  if (count == 0 || count > kMaxSamples) return false;
+  std::vector<uint8_t> samples(count * 2);
+  if (!file.read(reinterpret_cast<char*>(samples.data()), static_cast<std::streamsize>(samples.size())))
+    return false;
+  out.scheme = comment.substr(kMark.size());
+  std::vector<uint8_t> pixels;
+  pixels.reserve(count * 3);
+  uint64_t sum = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t bits = samples[2 * i] * 256u + samples[2 * i + 1];
+    sum += bits;
+    out.most_bits = std::max(out.most_bits, bits);
+    const auto color = heat_color(static_cast<double>(bits) / out.raw_bits);
+    pixels.insert(pixels.end(), color.begin(), color.end());
+  }
+  out.mean_bits = static_cast<double>(sum) / static_cast<double>(count);
+  out.image = png_uri(pixels, width, height);
+  return !out.image.empty();
+}
+
+struct PictureFiles {
+  std::string frame;
+  std::vector<std::string> heat_maps;
+};
+using PictureKey = std::pair<uint64_t, uint32_t>;  // frame, surface
+
+void list_folder(const fs::path& folder, bool heat, std::map<PictureKey, PictureFiles>& out) {
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(folder, code)) {
+    unsigned long surface = 0, frame = 0;
+    if (std::sscanf(entry.path().filename().c_str(), "%lu-%lu", &surface, &frame) != 2) continue;
+    PictureFiles& files = out[{frame, static_cast<uint32_t>(surface)}];
+    if (heat && entry.path().extension() == ".pgm")
+      files.heat_maps.push_back(entry.path().string());
+    else if (!heat && entry.path().extension() == ".png")
+      files.frame = entry.path().string();
+  }
+}
+
+}  // namespace
+
+std::vector<RunPicture> load_pictures(const RunRecord& run, size_t max_count) {
+  std::map<PictureKey, PictureFiles> files;
+  list_folder(fs::path(run.path) / "heatmaps", true, files);
+  list_folder(fs::path(run.path) / "frames", false, files);
+  std::map<PictureKey, const FrameStatistics*> rows;
+  for (const FrameStatistics& frame : run.frames) rows[{frame.frame, frame.surface}] = &frame;
+  std::erase_if(files, [&](const auto& entry) {
+    return rows.count(entry.first) == 0 || (entry.second.frame.empty() && entry.second.heat_maps.empty());
+  });
+  std::vector<PictureKey> keys;
+  for (const auto& [key, value] : files) keys.push_back(key);
+  const size_t count = std::min(max_count, keys.size());
+  std::vector<RunPicture> out;
+  for (size_t i = 0; i < count; ++i) {
+    const PictureKey key = keys[count == 1 ? keys.size() / 2 : i * (keys.size() - 1) / (count - 1)];
+    const FrameStatistics& frame = *rows[key];
+    const uint32_t longer = std::max(frame.width, frame.height);
+    RunPicture picture{.frame = key.first, .surface = key.second, .thumbnail = "", .heat_maps = {}};
+    picture.width = std::max(1u, static_cast<uint32_t>(uint64_t{frame.width} * kShownSide / longer));
+    picture.height = std::max(1u, static_cast<uint32_t>(uint64_t{frame.height} * kShownSide / longer));
+    if (!files[key].frame.empty()) picture.thumbnail = thumbnail_of(files[key].frame, picture);
+    for (const std::string& path : files[key].heat_maps)
+      if (HeatMap map; read_heat_map(path, map)) picture.heat_maps.push_back(std::move(map));
+    const auto place = [&](const HeatMap& map) {
+      return std::find(run.scheme_names.begin(), run.scheme_names.end(), map.scheme) -
+             run.scheme_names.begin();
+    };
+    std::stable_sort(picture.heat_maps.begin(), picture.heat_maps.end(),
+                     [&](const HeatMap& a, const HeatMap& b) { return place(a) < place(b); });
+    out.push_back(std::move(picture));
+  }
+  return out;
+}
+
+std::string heat_scale_stops() {
+  std::string out;
+  for (size_t i = 0; i < kViridis.size(); ++i)
+    out += fmt::format("<stop offset=\"{:.1f}%\" stop-color=\"rgb({},{},{})\"/>",
+                       100.0 * static_cast<double>(i) / (kViridis.size() - 1), kViridis[i][0], kViridis[i][1],
+                       kViridis[i][2]);
+  return out;
+}
+
+}  // namespace tilepress

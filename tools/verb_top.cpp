@@ -1,0 +1,169 @@
+// tilepress top: running captures in a terminal, as they go.
+#include <poll.h>
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "live/capture_screen.h"
+#include "verb.h"
+
+namespace tilepress {
+namespace {
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+std::atomic<bool> interrupted{false};
+
+/// The terminal while the view is open: other screen, no cursor, keys without Enter. Restored on destruction.
+class LiveTerminal {
+ public:
+  LiveTerminal() {
+    keys_ = isatty(STDIN_FILENO) && tcgetattr(STDIN_FILENO, &before_) == 0;
+    if (keys_) {
+      termios raw = before_;
+      raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+      tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+    }
+    std::fputs("\x1b[?1049h\x1b[?25l", stdout);
+  }
+  LiveTerminal(const LiveTerminal&) = delete;
+  LiveTerminal& operator=(const LiveTerminal&) = delete;
+  ~LiveTerminal() {
+    std::fputs("\x1b[?25h\x1b[?1049l", stdout);
+    std::fflush(stdout);
+    if (keys_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  }
+  /// Waits for a key; 0 if none came.
+  char key(int wait_ms) const {
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    char pressed = 0;
+    if (poll(keys_ ? &input : nullptr, keys_ ? 1 : 0, wait_ms) > 0 && read(STDIN_FILENO, &pressed, 1) != 1)
+      pressed = 0;
+    return pressed;
+  }
+
+ private:
+  termios before_{};
+  bool keys_ = false;
+};
+
+struct Watch {
+  LiveReader reader;
+  WatchedCapture capture;
+  Clock::time_point read_at;
+};
+
+/// All captures at or below the folders, and their last two snapshots.
+class CaptureList {
+ public:
+  explicit CaptureList(const std::vector<std::string>& folders) : folders_(folders) {}
+  void refresh() {
+    for (const std::string& folder : folders_) look(folder, 0);
+    for (auto& [path, watch] : watches_) {
+      LiveState state{};
+      const bool alive = kill(static_cast<pid_t>(watch->capture.now.pid), 0) == 0 || errno == EPERM;
+      watch->capture.ended = !alive || !fs::exists(path + "/" + kLiveFile);
+      if (!watch->reader.read(state)) continue;
+      const auto now = Clock::now();
+      watch->capture.before = watch->capture.now;
+      watch->capture.elapsed_s = std::chrono::duration<double>(now - watch->read_at).count();
+      watch->capture.now = state;
+      watch->read_at = now;
+    }
+  }
+  std::vector<std::string> lines(size_t columns) const {
+    std::vector<std::string> out;
+    for (const auto& [path, watch] : watches_) {
+      if (!out.empty()) out.emplace_back();
+      for (std::string& line : capture_lines(watch->capture, columns)) out.push_back(std::move(line));
+    }
+    return out;
+  }
+  bool empty() const { return watches_.empty(); }
+
+ private:
+  void look(const fs::path& folder, int depth) {
+    constexpr int kMaxDepth = 4;
+    std::error_code code;
+    if (fs::exists(folder / kLiveFile, code)) {
+      const std::string path = folder.string();
+      if (watches_.count(path) > 0) return;
+      auto watch = std::make_unique<Watch>();
+      std::string error;
+      if (!watch->reader.open(path, error) || !watch->reader.read(watch->capture.now)) return;
+      watch->capture.path = path;
+      watch->read_at = Clock::now();
+      watches_[path] = std::move(watch);
+      return;
+    }
+    if (depth == kMaxDepth) return;
+    for (const auto& entry : fs::directory_iterator(folder, code))
+      if (entry.is_directory(code) && !entry.is_symlink(code)) look(entry.path(), depth + 1);
+  }
+  std::vector<std::string> folders_;
+  std::map<std::string, std::unique_ptr<Watch>> watches_;
+};
+
+void show_screen(const CaptureList& captures, const std::vector<std::string>& folders) {
+  winsize size{};
+  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 2;
+  const size_t columns = known ? size.ws_col : 80, rows = known ? size.ws_row : 24;
+  std::vector<std::string> lines = captures.lines(columns);
+  if (captures.empty()) lines.push_back("waiting for a capture in " + folders.front() + " …");
+  std::string out = "\x1b[H";
+  for (size_t i = 0; i + 2 < rows && i < lines.size(); ++i) out += lines[i] + "\x1b[K\n";
+  out += "\x1b[K\nq quits; the programs go on\x1b[K\x1b[J";
+  std::fwrite(out.data(), 1, out.size(), stdout);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int verb_top(int argc, char** argv) {
+  std::vector<std::string> folders;
+  double interval_s = 1;
+  bool once = false;
+  CLI::App app{
+      "Shows running captures: frames per second, rates, FVC coverage, queue and cost. It only reads."};
+  app.add_option("DIR", folders, "Output folders of `tilepress run` (default: tilepress-out)");
+  app.add_option("--interval", interval_s, "Seconds between two looks (default: 1)")
+      ->type_name("S")
+      ->check(CLI::Range(0.05, 3600.0));
+  app.add_flag("--once", once, "Print what runs now and end; exit 3 if nothing does");
+  if (const auto stop = parse_command_line(app, argc, argv)) return *stop;
+  if (folders.empty()) folders = {"tilepress-out"};
+
+  CaptureList captures(folders);
+  captures.refresh();
+  const int wait_ms = static_cast<int>(interval_s * 1000);
+  if (once || !isatty(STDOUT_FILENO)) {
+    if (captures.empty()) return fail(kExitNothingCaptured, folders.front() + ": no running capture");
+    poll(nullptr, 0, wait_ms);  // a second look makes frames per second
+    captures.refresh();
+    for (const std::string& line : captures.lines(200)) std::printf("%s\n", line.c_str());
+    return kExitDone;
+  }
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = true; };
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
+  const LiveTerminal terminal;
+  for (char key = 0; !interrupted && key != 'q' && key != 'Q'; key = terminal.key(wait_ms)) {
+    captures.refresh();
+    show_screen(captures, folders);
+  }
+  return kExitDone;
+}
+
+}  // namespace tilepress
