@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "tilepress/color_cdf.h"
 
@@ -26,6 +27,10 @@ void add_cdf_options(CLI::App& app, std::string& path, FrameSet& frames) {
 
 bool CdfFile::open(const std::string& path, bool force, std::string& error) {
   path_ = path;
+  // It may lie in the run directory, which is not there yet.
+  std::error_code ignored;
+  if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
+    std::filesystem::create_directories(folder, ignored);
   file_.reset(std::fopen(path.c_str(), force ? "w" : "wx"));
   if (!file_) {
     error = path + ": " + (errno == EEXIST ? "exists (--force replaces it)" : std::strerror(errno));
