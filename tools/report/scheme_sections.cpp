@@ -6,6 +6,7 @@
 
 #include "page_parts.h"
 #include "published_means.h"
+#include "tilepress/scheme.h"
 
 namespace tilepress {
 namespace {
@@ -60,8 +61,8 @@ Section means_section(const Batch& batch, bool with_bursts) {
 
 /// DCP's structures are the only ones the paper gives an energy for.
 bool has_dcp_structures(const std::string& scheme) {
-  const std::string family = scheme_family(scheme);
-  return family != "ras" && family != "red";
+  const SchemeInfo* info = find_scheme(scheme_family(scheme));
+  return info != nullptr && info->takes_fvc_keys;
 }
 
 Section energy_section(const Batch& batch) {

@@ -123,7 +123,7 @@ def check_completion(folder):
     (folder / "tilepress").symlink_to(Path(TILEPRESS).resolve())
     verbs = complete(["tilepress", ""], folder)
     expect({"run", "frames", "report", "compare", "export", "schemes"} <= set(verbs), f"verbs: {verbs}")
-    expect(complete(["tilepress", "comp"], folder) == ["compare"], "a verb's beginning")
+    expect(complete(["tilepress", "compa"], folder) == ["compare"], "a verb's beginning")
     expect("--threshold" in complete(["tilepress", "compare", "--th"], folder), "an option's beginning")
     expect(complete(["tilepress", "export", "--format", "g"], folder) == ["gem5"], "values of --format")
     expect(complete(["tilepress", "run", "-s", "hu"], folder) == ["huffdcp"], "names of schemes")
