@@ -50,8 +50,11 @@ bool CaptureWorker::start() {
 
 void CaptureWorker::run() {
   try {
-    while (!queue_.closed_and_empty()) {
-      CapturedFrame* frame = queue_.next();
+    // The last turn comes after the queue was found closed: presents without a frame may have been counted
+    // since the turn before.
+    for (bool last = false; !last;) {
+      last = queue_.closed_and_empty();
+      CapturedFrame* frame = last ? nullptr : queue_.next();
       if (!writer_.is_open() && alive() && counts_.seen > 0 && !create_directory()) give_up(writer_.error());
       if (frame != nullptr) {
         if (frame->last_of_window)
