@@ -218,7 +218,7 @@ void SurfaceEngine::State::end_frame(FrameStatistics& out) {
   }
   out.metrics = FrameMetrics{};
   if (options.frame_metrics)
-    out.metrics = meter.measure(now, has_before ? &before : nullptr, collectors.front().fvc);
+    out.metrics = meter.measure(now, has_before ? &before : nullptr, collectors.front().fvc);  // spends before
   for (Collector& collector : collectors) {
     if (!collector.wanted || !collector.collecting) continue;
     collector.ccd.build(collector.fvc);

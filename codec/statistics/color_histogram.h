@@ -42,6 +42,8 @@ class ColorHistogram {
 /// not depend on the order of the additions.
 class CountProfile {
  public:
+  static constexpr uint32_t kSmall = 1024;  ///< smaller counts are kept by number of colours
+
   void clear();
   void add(uint32_t count) {
     ++colors_;
@@ -49,6 +51,11 @@ class CountProfile {
       ++small_[count];
     else
       large_.push_back(count);
+  }
+  /// `colors` colours of `count` < kSmall pixels each.
+  void add_small(uint32_t count, uint64_t colors) {
+    colors_ += colors;
+    small_[count] += static_cast<uint32_t>(colors);
   }
   /// After the last add().
   void close();
@@ -59,7 +66,6 @@ class CountProfile {
   uint64_t most_frequent(uint64_t how_many) const;
 
  private:
-  static constexpr uint32_t kSmall = 1024;
   std::vector<uint32_t> small_ = std::vector<uint32_t>(kSmall);  ///< number of colours by count
   std::vector<uint32_t> large_;                                  ///< the counts from kSmall on, descending
   uint64_t colors_ = 0;

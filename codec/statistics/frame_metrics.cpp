@@ -1,4 +1,4 @@
-// Frame metrics: histograms, whole or in parts, and the figures read off them.
+// Frame metrics: colour counts of a frame and the one before, and the figures read off them.
 #include "statistics/frame_metrics.h"
 
 #include <algorithm>
@@ -10,15 +10,13 @@
 namespace tilepress {
 namespace {
 
-/// Histograms of two frames together stay below one raw frame of 4 bytes a pixel.
+/// With fewer pixels to a colour, distributing them is quicker than hashing the colours.
+constexpr size_t kPixelsPerColor = 64;
+
+/// Slots for a frame of as many colours; two tables take an eighth of a raw frame of 4 bytes a pixel.
 size_t largest_table(const PixelPlane& frame) {
   const size_t pixels = size_t{frame.width()} * frame.height();
-  return std::max<size_t>(1024, pixels / 17 * 4);
-}
-
-/// Partition bits of a colour: not those that choose its slot.
-uint32_t partition_of(uint32_t color) {
-  return static_cast<uint32_t>(ColorHistogram::mix(color) >> 20);
+  return std::max<size_t>(1024, pixels * 2 / kPixelsPerColor);
 }
 
 /// Takes runs of a colour together before they go to the large table: most colours come back soon.
@@ -49,8 +47,8 @@ class RunCache {
 
 }  // namespace
 
-bool FrameMeter::count_colors(const PixelPlane& frame, uint32_t mask, uint32_t part, ColorHistogram& out) {
-  out.clear(largest_table_);
+bool FrameMeter::count_colors(const PixelPlane& frame, ColorHistogram& out) {
+  out.clear(largest_table(frame));
   RunCache cache(out);
   for (uint32_t y = 0; y < frame.height(); ++y) {
     const uint32_t* row = frame.row(y);
@@ -58,62 +56,41 @@ bool FrameMeter::count_colors(const PixelPlane& frame, uint32_t mask, uint32_t p
       const uint32_t color = row[x], first = x;
       while (++x < frame.width() && row[x] == color) {
       }
-      if (mask != 0 && (partition_of(color) & mask) != part) continue;
       if (!cache.add(color, x - first)) return false;
     }
   }
   return cache.flush();
 }
 
-void FrameMeter::add_part(bool compare, const Fvc& fvc, uint32_t mask, uint32_t part) {
+bool FrameMeter::count_few(const PixelPlane& frame, const PixelPlane* before, const Fvc& fvc) {
+  std::swap(now_, before_);
+  const bool kept = std::exchange(before_valid_, false);
+  if (!count_colors(frame, now_)) return false;
+  before_valid_ = true;  // for the next frame
+  if (before != nullptr && !kept && !count_colors(*before, before_)) return false;
   for (const ColorHistogram::Entry& entry : now_.table()) {
     if (entry.count == 0) continue;
     profile_.add(entry.count);
-    if (!compare) continue;
+    if (before == nullptr) continue;
     const uint32_t was = before_.count(entry.color);
-    gained_ += entry.count > was ? entry.count - was : 0;
+    change_.gained += entry.count > was ? entry.count - was : 0;
   }
   for (uint32_t slot = 0; slot < fvc.slots(); ++slot)
-    if (fvc.valid(slot) && (partition_of(fvc.color(slot)) & mask) == part)
-      held_true_ += now_.count(fvc.color(slot));
-}
-
-bool FrameMeter::count_in_parts(const PixelPlane& frame, const PixelPlane* before, const Fvc& fvc,
-                                uint32_t parts) {
-  profile_.clear();
-  gained_ = held_true_ = 0;
-  size_t fullest = 0;
-  for (uint32_t part = 0; part < parts; ++part) {
-    const bool kept = parts == 1 && before_valid_;  // before_ holds that frame already
-    if (!count_colors(frame, parts - 1, part, now_) ||
-        (before != nullptr && !kept && !count_colors(*before, parts - 1, part, before_)))
-      return false;
-    fullest = std::max({fullest, now_.used(), before_.used()});
-    add_part(before != nullptr, fvc, parts - 1, part);
-  }
-  parts_ = fullest * 3 < largest_table_ && parts > 1 ? parts / 2 : parts;
+    if (fvc.valid(slot)) change_.held += now_.count(fvc.color(slot));
   return true;
 }
 
-FrameMetrics FrameMeter::measure(const PixelPlane& frame, const PixelPlane* before, const Fvc& fvc) {
-  largest_table_ = largest_table(frame);
-  std::swap(now_, before_);
-  uint32_t parts = parts_;
-  while (!count_in_parts(frame, before, fvc, parts)) {
-    parts *= 2;
-    before_valid_ = false;
-  }
-  before_valid_ = parts == 1;
-  profile_.close();
+void FrameMeter::count_many(const PixelPlane& frame, PixelPlane* before, const Fvc& fvc) {
+  std::vector<uint32_t> held;
+  for (uint32_t slot = 0; slot < fvc.slots(); ++slot)
+    if (fvc.valid(slot)) held.push_back(fvc.color(slot));
+  change_ = distribution_.count(frame, before, held, profile_);
+}
 
+FrameMetrics FrameMeter::measure(const PixelPlane& frame, PixelPlane* before, const Fvc& fvc) {
   const double pixels = static_cast<double>(frame.width()) * frame.height();
   FrameMetrics metrics;
-  metrics.unique_colors = profile_.colors();
-  metrics.entropy = profile_.entropy(pixels);
   if (before != nullptr) {
-    // Both frames have as many pixels, so what some colours gained others lost: half the sum of all
-    // differences is the sum of the gains.
-    metrics.color_change = static_cast<double>(gained_) / pixels;
     uint64_t changed = 0;
     for (uint32_t y = 0; y < frame.height(); ++y) {
       const uint32_t *now = frame.row(y), *then = before->row(y);
@@ -121,11 +98,22 @@ FrameMetrics FrameMeter::measure(const PixelPlane& frame, const PixelPlane* befo
     }
     metrics.pixel_change = static_cast<double>(changed) / pixels;
   }
+  profile_.clear();
+  change_ = {};
+  if (many_ || !count_few(frame, before, fvc)) count_many(frame, before, fvc);
+  profile_.close();
+  metrics.unique_colors = profile_.colors();
+  metrics.entropy = profile_.entropy(pixels);
+  // Both frames have as many pixels, so what some colours gained others lost: half the sum of all differences
+  // is the sum of the gains.
+  metrics.color_change = before != nullptr ? static_cast<double>(change_.gained) / pixels : 0;
+  many_ = profile_.colors() * kPixelsPerColor > size_t{frame.width()} * frame.height();
+  before_valid_ = before_valid_ && !many_;
   uint64_t held_colors = 0;
   for (uint32_t slot = 0; slot < fvc.slots(); ++slot) held_colors += fvc.valid(slot);
   metrics.fvc_coverage = fvc.coverage();
   metrics.fvc_relative_coverage =
-      static_cast<double>(held_true_) / static_cast<double>(profile_.most_frequent(held_colors));
+      static_cast<double>(change_.held) / static_cast<double>(profile_.most_frequent(held_colors));
   metrics.top100_coverage = static_cast<double>(profile_.most_frequent(100)) / pixels;
   return metrics;
 }

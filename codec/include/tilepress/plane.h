@@ -26,6 +26,8 @@ class PixelPlane {
   uint64_t blocks() const { return uint64_t{blocks_x()} * blocks_y(); }
   PixelFormat format() const { return format_; }
   const uint32_t* row(uint32_t y) const { return words_.data() + size_t{y} * stride_; }
+  /// Its words, at least width · height, as memory to be used until the next assign(): the frame is lost.
+  uint32_t* scratch() { return words_.data(); }
 
   /// Copies block (bx, by) out.
   void load_block(uint32_t bx, uint32_t by, Block& out) const;
