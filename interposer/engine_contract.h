@@ -7,7 +7,7 @@
 extern "C" {
 #endif
 
-enum { TILEPRESS_ENGINE_VERSION = 3 };
+enum { TILEPRESS_ENGINE_VERSION = 4 };
 
 enum TilepressApi { TILEPRESS_EGL, TILEPRESS_GLX };
 
@@ -22,7 +22,7 @@ struct TilepressPresent {
   int32_t damage_count;
   const char* via;                     // road of the call, as in run.json
   void* (*look_up)(const char* name);  // the driver's functions where no public library answers; NULL else
-  void* ticket[4];                     // the engine's own, from begin to end
+  void* ticket[6];                     // the engine's own, from begin to end
 };
 
 struct TilepressEngine {

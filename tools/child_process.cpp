@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -83,6 +84,26 @@ class SignalForwarding {
   _exit(kExitNotFound);
 }
 
+/// Waits for the end of the child and returns its status as waitpid gives it.
+int wait_for(ChildEnd& end, double limit_s) {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto kGrace = std::chrono::seconds(10);
+  constexpr timespec kPause{0, 20'000'000};
+  const auto limit =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit_s));
+  for (int status = 0;;) {
+    const pid_t found = waitpid(end.pid, &status, limit_s > 0 ? WNOHANG : 0);
+    if (found > 0 || (found < 0 && errno != EINTR)) return status;
+    if (limit_s <= 0) continue;
+    if (Clock::now() >= limit && !end.ended_by_limit) {
+      end.ended_by_limit = true;
+      kill(end.pid, SIGTERM);
+    }
+    if (Clock::now() >= limit + kGrace) kill(end.pid, SIGKILL);
+    nanosleep(&kPause, nullptr);
+  }
+}
+
 }  // namespace
 
 std::optional<std::string> find_program(const std::string& name, StartFailure& failure) {
@@ -114,7 +135,7 @@ std::optional<std::string> find_program(const std::string& name, StartFailure& f
 
 std::optional<ChildEnd> run_child(const std::vector<std::string>& argv,
                                   const std::map<std::string, std::string>& environment,
-                                  StartFailure& failure) {
+                                  StartFailure& failure, double limit_s) {
   int report[2];
   if (pipe2(report, O_CLOEXEC) != 0) {
     failure = {kExitLauncherFailed, std::string("pipe: ") + std::strerror(errno)};
@@ -140,9 +161,7 @@ std::optional<ChildEnd> run_child(const std::vector<std::string>& argv,
   while ((got = read(report[0], &error, sizeof error)) < 0 && errno == EINTR) {
   }
   close(report[0]);
-  int status = 0;
-  while (waitpid(end.pid, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = wait_for(end, got == sizeof error ? 0 : limit_s);
   if (got == sizeof error) {
     const bool missing = error == ENOENT || error == ENOTDIR;
     failure = {missing ? kExitNotFound : kExitNotExecutable,

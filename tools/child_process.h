@@ -23,16 +23,17 @@ struct ChildEnd {
   pid_t pid = 0;
   std::optional<int> exit_status;  ///< either this
   std::optional<int> signal;       ///< or this is set
+  bool ended_by_limit = false;     ///< it was still running at the end of its time
   /// As a shell tells it: the status, or 128 + signal.
   int status() const { return signal ? 128 + *signal : exit_status.value_or(0); }
 };
 
 /// Runs argv with `environment` added to ours and waits for it. The child shares standard input, output,
 /// error and the terminal. While it runs, SIGINT and SIGQUIT (which the terminal sends to both) are left to
-/// it and SIGTERM, SIGHUP, SIGUSR1 and SIGUSR2 are passed on. Nothing and `failure` if it could not be
-/// started.
+/// it and SIGTERM, SIGHUP, SIGUSR1 and SIGUSR2 are passed on. After `limit_s` seconds (0 = no limit) it is
+/// sent SIGTERM, and SIGKILL ten seconds later. Nothing and `failure` if it could not be started.
 std::optional<ChildEnd> run_child(const std::vector<std::string>& argv,
                                   const std::map<std::string, std::string>& environment,
-                                  StartFailure& failure);
+                                  StartFailure& failure, double limit_s = 0);
 
 }  // namespace tilepress

@@ -7,11 +7,14 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "child_process.h"
 #include "command_line.h"
 #include "common_options.h"
 #include "dumped_frames.h"
+#include "overhead_report.h"
+#include "present_costs.h"
 #include "program_kind.h"
 #include "session_folder.h"
 #include "shim_path.h"
@@ -31,6 +34,7 @@ constexpr const char* kExamples =
     "  tilepress run -s vdcp -s vdcp:fvc=128,policy=2lfc -- glxgears\n"
     "  tilepress run --frames 100-199 --verify -- ./game --level 3\n"
     "  xvfb-run -a tilepress run -q -- glmark2\n"
+    "  tilepress run --measure-overhead --seconds 10 -- glxgears\n"
     "\n"
     "Each process that presents frames leaves its rows in DIR/<program>-<pid>/. Exit status: the program's "
     "own; 128+n\n"
@@ -42,6 +46,9 @@ struct LaunchOptions {
   RunOptions run;
   std::string via = "auto";
   bool quiet = false;
+  bool measure_overhead = false;
+  unsigned rounds = 2;
+  double seconds = 0;  ///< 0 = until the program ends
   std::vector<std::string> program;
 };
 
@@ -58,6 +65,15 @@ std::optional<int> parse_options(int argc, char** argv, LaunchOptions& options) 
         return parse_shim_road(road) ? std::string() : "not auto, preload or glvnd: " + road;
       });
   app.add_flag("-q,--quiet", options.quiet, "No summary");
+  app.add_flag("--measure-overhead", options.measure_overhead,
+               "Run the program with and without capture, compare frame times, write DIR/overhead.csv");
+  app.add_option("--rounds", options.rounds, "With --measure-overhead: runs of each kind (default: 2)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100));
+  app.add_option("--seconds", options.seconds,
+                 "End the program by SIGTERM after S seconds (default: it ends by itself)")
+      ->type_name("S")
+      ->check(CLI::Range(0.1, 86400.0));
 
   // All behind the first "--" is the program's, whatever it looks like.
   int own = 1;
@@ -93,10 +109,12 @@ bool prepare_output(std::string& folder, bool& made, std::string& error) {
 
 std::optional<std::map<std::string, std::string>> child_environment(const LaunchOptions& options,
                                                                     const SessionFolder& session,
-                                                                    const std::string& shim,
+                                                                    const std::string& shim, bool capture,
                                                                     std::string& error) {
   auto environment = to_environment(options.run);
   environment["TILEPRESS_SESSION"] = session.path();
+  environment["TILEPRESS_CAPTURE"] = capture ? "" : "off";
+  environment["TILEPRESS_PRESENT_TIMES"] = options.measure_overhead ? session.path() : "";
   if (!add_shim_environment(environment, *parse_shim_road(options.via), session.preloadable(shim), error))
     return std::nullopt;
   return environment;
@@ -147,6 +165,7 @@ Harvest harvest(const SessionFolder& session, const ChildEnd& child, bool quiet)
     const std::string title =
         record.info.program + " (" + std::to_string(process.pid) + (running ? ", still running)" : ")");
     std::fputs(summary_table(record, title).c_str(), stderr);
+    std::fputs(present_costs_text(present_costs(record)).c_str(), stderr);
     std::fprintf(stderr, "  rows: %s/schemes.csv and frames.csv\n", process.run_path.c_str());
   }
   return out;
@@ -172,6 +191,84 @@ int report_nothing(const LaunchOptions& options, const SessionFolder& session, c
   return kExitNothingCaptured;
 }
 
+struct Launch {
+  ChildEnd child;
+  Harvest found;
+};
+
+/// Runs the program once; nothing, with the exit status in `status`, if it could not be started.
+std::optional<Launch> launch(const LaunchOptions& options, const std::string& shim, bool capture, bool quiet,
+                             SessionFolder& session, int& status) {
+  std::string error;
+  StartFailure failure{};
+  const auto abandon = [&](int code, const std::string& line) {
+    status = fail(code, line);
+    return std::nullopt;
+  };
+  if (!session.create(error)) return abandon(kExitLauncherFailed, error);
+  LaunchOptions own = options;
+  own.run.log_file = session.log_path();
+  const auto environment = child_environment(own, session, shim, capture, error);
+  if (!environment) return abandon(kExitLauncherFailed, error);
+  const auto child = run_child(options.program, *environment, failure, options.seconds);
+  if (!child) return abandon(failure.status, failure.reason);
+  for (const std::string& line : session.log_lines()) std::fprintf(stderr, "%s\n", line.c_str());
+  Launch out{*child, harvest(session, *child, quiet)};
+  for (const std::string& line : out.found.failures) fail(kExitLauncherFailed, line);
+  return out;
+}
+
+int own_status(const ChildEnd& child) {
+  return child.ended_by_limit ? 0 : child.status();
+}
+
+/// The first name of overhead.csv, overhead-2.csv, … that is free.
+std::string free_overhead_file(const std::string& folder) {
+  std::string path = folder + "/overhead.csv";
+  for (int suffix = 2; std::filesystem::exists(path); ++suffix)
+    path = folder + "/overhead-" + std::to_string(suffix) + ".csv";
+  return path;
+}
+
+bool write_overhead(const LaunchOptions& options, const std::vector<OverheadRun>& runs) {
+  const std::string path = free_overhead_file(options.run.output);
+  std::ofstream file(path);
+  file << overhead_csv(runs);
+  file.close();
+  if (!file) fail(kExitLauncherFailed, path + ": cannot be written");
+  if (!options.quiet) std::fprintf(stderr, "%s  rows: %s\n", overhead_text(runs).c_str(), path.c_str());
+  return static_cast<bool>(file);
+}
+
+/// The program with and without capture, `rounds` times, the order changing from round to round.
+int measure_overhead(const LaunchOptions& options, const std::string& shim, const std::string& program) {
+  std::vector<OverheadRun> runs;
+  int status = 0;
+  Harvest sum;
+  for (unsigned turn = 0; turn < 2 * options.rounds; ++turn) {
+    const unsigned round = turn / 2;
+    const bool capture = (turn + round) % 2 != 0;
+    const bool last = turn + 2 >= 2 * options.rounds && capture;
+    SessionFolder session;
+    int failed = 0;
+    const auto done = launch(options, shim, capture, options.quiet || !last, session, failed);
+    if (!done) return failed;
+    runs.push_back({round, capture, own_status(done->child), busiest_series(session.path())});
+    if (status == 0) status = runs.back().exit_status;
+    if (runs.back().exit_status != runs.front().exit_status)
+      fail(kExitFailed, "exit status " + std::to_string(runs.back().exit_status) + " in run " +
+                            std::to_string(turn + 1) + ", " + std::to_string(runs.front().exit_status) +
+                            " in the first");
+    sum.captured += done->found.captured;
+    sum.seen += done->found.seen;
+    if (!done->found.failures.empty() && status == 0) status = kExitLauncherFailed;
+    if (turn + 1 == 2 * options.rounds && sum.captured == 0 && status == 0)
+      status = report_nothing(options, session, sum, program);
+  }
+  if (sum.captured > 0 && !write_overhead(options, runs) && status == 0) status = kExitLauncherFailed;
+  return status;
+}
+
 }  // namespace
 
 int verb_run(int argc, char** argv) {
@@ -187,23 +284,23 @@ int verb_run(int argc, char** argv) {
     return fail(kExitLauncherFailed, std::string(kShimName) + ": not found (looked at " + looked + ")");
   bool made = false;
   if (!prepare_output(options.run.output, made, error)) return fail(kExitLauncherFailed, error);
-  SessionFolder session;
-  if (!session.create(error)) return fail(kExitLauncherFailed, error);
-  options.run.log_file = session.log_path();
-
-  const auto environment = child_environment(options, session, *shim, error);
-  if (!environment) return fail(kExitLauncherFailed, error);
-  const auto child = run_child(options.program, *environment, failure);
-  if (!child) return fail(failure.status, failure.reason);
-
-  for (const std::string& line : session.log_lines()) std::fprintf(stderr, "%s\n", line.c_str());
-  const Harvest found = harvest(session, *child, options.quiet);
-  for (const std::string& line : found.failures) fail(kExitLauncherFailed, line);
-  if (made && found.captured == 0) {
+  const auto remove_if_empty = [&] {
     std::error_code code;
-    std::filesystem::remove(options.run.output, code);  // only if it is empty
+    if (made) std::filesystem::remove(options.run.output, code);
+  };
+  if (options.measure_overhead) {
+    const int status = measure_overhead(options, *shim, *program);
+    remove_if_empty();
+    return status;
   }
-  if (child->status() != 0) return child->status();
+
+  SessionFolder session;
+  int status = 0;
+  const auto done = launch(options, *shim, true, options.quiet, session, status);
+  remove_if_empty();
+  if (!done) return status;
+  const Harvest& found = done->found;
+  if (own_status(done->child) != 0) return own_status(done->child);
   if (!found.failures.empty()) return kExitLauncherFailed;
   if (found.captured == 0) return report_nothing(options, session, found, *program);
   if (found.mismatched_blocks > 0)

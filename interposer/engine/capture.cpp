@@ -36,17 +36,19 @@ std::string program_name() {
 std::string damage_text(const TilepressPresent& present) {
   std::string text;
   for (int32_t i = 0; present.damage != nullptr && i < 4 * present.damage_count; ++i)
-    text += (i == 0 ? "" : i % 4 == 0 ? ";" : " ") + std::to_string(present.damage[i]);
-  return text;
+    (text += i % 4 == 0 ? ';' : ' ') += std::to_string(present.damage[i]);
+  return text.empty() ? text : text.substr(1);
 }
 
 constexpr uint32_t kNoWindow = ~0u;
 
 }  // namespace
 
-Capture::Capture(const TilepressHost& host) : host_(host), pid_(getpid()) {
+Capture::Capture(const TilepressHost& host) : host_(host), pid_(getpid()), times_(pid_) {
   std::string error;
   enabled_ = from_environment(options_, error) && !options_.output.empty();
+  const char* wish = std::getenv("TILEPRESS_CAPTURE");
+  counting_only_ = wish != nullptr && std::strcmp(wish, "off") == 0;
   if (const char* target = std::getenv("TILEPRESS_SIMD")) force_simd_target(target);  // unknown: the best one
   log_ = std::make_unique<ShimLog>(options_.log_file, options_.log_level);
   if (!error.empty()) log_->write(LogLevel::kError, error);
@@ -90,9 +92,8 @@ void Capture::report(uint32_t surface, const std::string& reason) {
     log_->write(LogLevel::kWarn, "surface " + std::to_string(surface) + ": " + reason);
 }
 
-Capture::Outcome Capture::take(TilepressPresent& present, PresentSource& source, uint32_t& window,
-                               CapturedFrame*& frame) {
-  const uint64_t begin_ns = now_ns();
+Capture::Outcome Capture::take(TilepressPresent& present, PresentSource& source, uint64_t begin_ns,
+                               uint32_t& window, CapturedFrame*& frame) {
   WindowKey key{};
   SurfaceShape shape;
   std::string reason;
@@ -100,7 +101,7 @@ Capture::Outcome Capture::take(TilepressPresent& present, PresentSource& source,
     log_->write(LogLevel::kDebug, reason);
     return Outcome::kNotCaptured;
   }
-  const SurfaceRegistry::Turn turn = registry_.turn(key, shape);
+  const SurfaceRegistry::Turn turn = registry_.turn(key, shape, begin_ns);
   window = turn.window;
   if (turn.forgotten) worker(present, source)->queue().submit_end_of(*turn.forgotten);
   if (!options_.takes(turn.frame)) return Outcome::kSkipped;
@@ -124,6 +125,7 @@ Capture::Outcome Capture::take(TilepressPresent& present, PresentSource& source,
   frame->surface = turn.surface;
   frame->frame = turn.frame;
   frame->time_ns = begin_ns - start_ns_;
+  frame->interval_ns = turn.interval_ns;
   frame->wait_ns = waited_ns;
   frame->damage = damage_text(present);
   frame->readback_ns = now_ns() - begin_ns - waited_ns;
@@ -131,13 +133,29 @@ Capture::Outcome Capture::take(TilepressPresent& present, PresentSource& source,
 }
 
 bool Capture::begin(TilepressPresent& present) {
+  const uint64_t begin_ns = now_ns();
+  const bool taken = !counting_only_ && begin_capture(present, begin_ns);
+  present.ticket[3] = reinterpret_cast<void*>(uintptr_t{begin_ns});
+  present.ticket[4] = reinterpret_cast<void*>(uintptr_t{now_ns() - begin_ns});
+  return taken || times_.on();
+}
+
+void Capture::end(TilepressPresent& present, bool presented) {
+  const uint64_t end_ns = now_ns();
+  if (present.ticket[0] != nullptr) end_capture(present, presented);
+  if (!times_.on() || !presented) return;
+  const auto begin_ns = reinterpret_cast<uintptr_t>(present.ticket[3]);
+  times_.note(present.surface, begin_ns, reinterpret_cast<uintptr_t>(present.ticket[4]) + now_ns() - end_ns);
+}
+
+bool Capture::begin_capture(TilepressPresent& present, uint64_t begin_ns) {
   const CaptureWorker* known = worker_;
   if (!enabled_ || (known != nullptr && !known->alive())) return false;
   PresentSource* source = source_of(present);
   if (source == nullptr) return false;
   uint32_t window = kNoWindow;
   CapturedFrame* frame = nullptr;
-  const Outcome outcome = take(present, *source, window, frame);
+  const Outcome outcome = take(present, *source, begin_ns, window, frame);
   worker(present, *source);
   counts_.roads |= strcmp(present.via, "glvnd") == 0 ? kRoadGlvnd : kRoadPreload;
   if (!enabled_) return false;
@@ -147,7 +165,7 @@ bool Capture::begin(TilepressPresent& present) {
   return true;
 }
 
-void Capture::end(TilepressPresent& present, bool presented) {
+void Capture::end_capture(TilepressPresent& present, bool presented) {
   const auto outcome = static_cast<Outcome>(reinterpret_cast<uintptr_t>(present.ticket[0]));
   const auto window = static_cast<uint32_t>(reinterpret_cast<uintptr_t>(present.ticket[1]));
   auto* frame = static_cast<CapturedFrame*>(present.ticket[2]);
@@ -157,7 +175,7 @@ void Capture::end(TilepressPresent& present, bool presented) {
     return;
   }
   ++counts_.seen;
-  if (window != kNoWindow) registry_.presented(window);
+  if (window != kNoWindow) registry_.presented(window, reinterpret_cast<uintptr_t>(present.ticket[3]));
   switch (outcome) {
     case Outcome::kTaken:
       return queue.submit(frame);

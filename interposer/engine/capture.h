@@ -9,6 +9,7 @@
 
 #include "interposer/engine/capture_worker.h"
 #include "interposer/engine/present_source.h"
+#include "interposer/engine/present_times.h"
 #include "interposer/engine/shim_log.h"
 #include "interposer/engine/surface_registry.h"
 #include "tilepress/run_options.h"
@@ -21,7 +22,7 @@ class Capture {
   explicit Capture(const TilepressHost& host);
   int64_t pid() const { return pid_; }
 
-  /// As TilepressEngine.begin and end.
+  /// As TilepressEngine.begin and end: the capture, and around it what --measure-overhead asks for.
   bool begin(TilepressPresent& present);
   void end(TilepressPresent& present, bool presented);
   void contexts_going(uint32_t api, void* display);
@@ -35,8 +36,11 @@ class Capture {
     uint32_t api;
     std::unique_ptr<PresentSource> source;  ///< null: cannot be read
   };
+  bool begin_capture(TilepressPresent& present, uint64_t begin_ns);
+  void end_capture(TilepressPresent& present, bool presented);
   PresentSource* source_of(const TilepressPresent& present);
-  Outcome take(TilepressPresent& present, PresentSource& source, uint32_t& window, CapturedFrame*& frame);
+  Outcome take(TilepressPresent& present, PresentSource& source, uint64_t begin_ns, uint32_t& window,
+               CapturedFrame*& frame);
   void report(uint32_t surface, const std::string& reason);
   CaptureWorker* worker(const TilepressPresent& present, const PresentSource& source);
 
@@ -45,6 +49,8 @@ class Capture {
   RunOptions options_;
   std::unique_ptr<ShimLog> log_;
   std::atomic<bool> enabled_{false};
+  bool counting_only_ = false;  ///< TILEPRESS_CAPTURE=off
+  PresentTimes times_;
   uint64_t start_ns_ = 0;
   CaptureCounts counts_;
   SurfaceRegistry registry_;

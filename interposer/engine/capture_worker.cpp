@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -16,6 +17,8 @@ namespace tilepress {
 namespace {
 
 constexpr uint32_t kQueueDepth = 3;
+constexpr const char* kPresentColumns =
+    "frame,surface,readback_ns,read_ns,wait_ns,damage,bind_ns,hand_off_ns,interval_ns\n";
 
 void note_run_folder(const std::string& path, int64_t pid) {
   const char* session = getenv("TILEPRESS_SESSION");
@@ -49,6 +52,10 @@ bool CaptureWorker::start() {
 }
 
 void CaptureWorker::run() {
+  // Frames may be dropped so that the program is not held up: then it is not held up by our use of the cores
+  // either.
+  const sched_param none{};
+  if (options_.on_full == OnFull::kDrop) sched_setscheduler(0, SCHED_IDLE, &none);
   try {
     // The last turn comes after the queue was found closed: presents without a frame may have been counted
     // since the turn before.
@@ -81,8 +88,7 @@ bool CaptureWorker::create_directory() {
   for (int suffix = 2; lstat(path.c_str(), &status) == 0; ++suffix)
     path = stem + "-" + std::to_string(suffix);
   if (!writer_.create(path, info_, options_)) return false;
-  if (!presents_.create(path + "/presents.csv", "frame,surface,readback_ns,read_ns,wait_ns,damage\n"))
-    return false;
+  if (!presents_.create(path + "/presents.csv", kPresentColumns)) return false;
   pictures_.open(path, options_);
   live_.open(path, info_, options_);
   note_run_folder(path, info_.pid);
@@ -117,7 +123,10 @@ bool CaptureWorker::append_present(const CapturedFrame& frame) {
   for (const uint64_t value :
        {frame.frame, uint64_t{frame.surface}, frame.readback_ns, frame.read_ns, frame.wait_ns})
     row += std::to_string(value) + ",";
-  return presents_.append(row + frame.damage + "\n");
+  row += frame.damage;
+  for (const uint64_t value : {frame.bind_ns, frame.hand_off_ns, frame.interval_ns})
+    (row += ',') += std::to_string(value);
+  return presents_.append(row += '\n');
 }
 
 RunCounts CaptureWorker::counts_now() const {

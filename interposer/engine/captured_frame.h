@@ -20,6 +20,9 @@ struct CapturedFrame {
   uint64_t readback_ns = 0;     ///< all that the program's thread spent, without wait_ns
   uint64_t read_ns = 0;         ///< of that, in the read itself, which waits for the rendering to end
   uint64_t wait_ns = 0;         ///< for room in the queue
+  uint64_t bind_ns = 0;      ///< of readback_ns, in making a private context current and the program's again
+  uint64_t hand_off_ns = 0;  ///< giving the frame to the worker, after the real call
+  uint64_t interval_ns = 0;  ///< since the window's last present; 0 = its first
   std::string damage;  ///< "x y width height;…" from the bottom left, as presented; empty = everything
 
   SurfaceView view;  ///< lies in `pixels`

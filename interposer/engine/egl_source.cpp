@@ -6,6 +6,7 @@
 #include "interposer/engine/gl_readback.h"
 #include "interposer/engine/in_context_readback.h"
 #include "interposer/engine/library_symbols.h"
+#include "interposer/engine/monotonic_clock.h"
 #include "interposer/engine/present_source.h"
 
 namespace tilepress {
@@ -107,18 +108,22 @@ class EglSource final : public PresentSource {
     EGLConfig config = nullptr;
     config_of(present, config);
     const ContextPool::Key key{present.display, reinterpret_cast<uintptr_t>(config)};
+    const uint64_t begin_ns = now_ns();
     EGLContext own = pool_.take(key);
     bool bound = own != EGL_NO_CONTEXT && egl_.MakeCurrent(present.display, surface, surface, own);
     if (!bound) {
       own = create(present.display, config);
       bound = own != EGL_NO_CONTEXT && egl_.MakeCurrent(present.display, surface, surface, own);
     }
+    const uint64_t bound_ns = now_ns();
     GLenum error = 0;
     const bool taken = bound && read_back_buffer(gl_, shape, frame, error);
+    const uint64_t taken_ns = now_ns();
     if (bound && !egl_.MakeCurrent(present.display, draw, read, context)) {
       reason = "the program's context could not be made current again";
       return Attempt::kContextLost;
     }
+    frame.bind_ns = now_ns() - begin_ns - (taken_ns - bound_ns);
     if (own != EGL_NO_CONTEXT) pool_.give(key, own);
     if (!taken) reason = bound ? "glReadPixels failed" : "the private context cannot be made current";
     return taken ? Attempt::kRead : Attempt::kNotBound;

@@ -5,6 +5,8 @@
 #include <new>
 #include <utility>
 
+#include "interposer/engine/monotonic_clock.h"
+
 namespace tilepress {
 
 std::byte* CapturedFrame::reserve(size_t bytes) {
@@ -43,12 +45,12 @@ void FrameQueue::submit_end_of(uint32_t window) {
 }
 
 void FrameQueue::submit(CapturedFrame* frame) {
-  {
-    std::lock_guard lock(mutex_);
-    ready_.emplace_back(frame);
-    ++pending_;
-  }
+  const uint64_t begin_ns = now_ns();
+  std::lock_guard lock(mutex_);
+  ready_.emplace_back(frame);
+  ++pending_;
   changed_.notify_all();
+  frame->hand_off_ns = now_ns() - begin_ns;  // under the lock: later the worker may have it
 }
 
 void FrameQueue::release(CapturedFrame* frame) {

@@ -9,6 +9,7 @@
 #include "interposer/engine/gl_readback.h"
 #include "interposer/engine/in_context_readback.h"
 #include "interposer/engine/library_symbols.h"
+#include "interposer/engine/monotonic_clock.h"
 #include "interposer/engine/present_source.h"
 
 namespace tilepress {
@@ -125,17 +126,21 @@ class GlxSource final : public PresentSource {
     const GLXFBConfig config = current_config(display);
     const ContextPool::Key key{display, reinterpret_cast<uintptr_t>(config)};
     watch_end_of(display);
+    const uint64_t begin_ns = now_ns();
     auto own = static_cast<GLXContext>(pool_.take(key));
     if (own == nullptr)
       own = glx_.CreateNewContext(display, config, GLX_RGBA_TYPE, nullptr, glx_.IsDirect(display, context));
     const bool bound =
         own != nullptr && glx_.MakeContextCurrent(display, present.surface, present.surface, own);
+    const uint64_t bound_ns = now_ns();
     GLenum error = 0;
     const bool taken = bound && read_back_buffer(gl_, shape, frame, error);
+    const uint64_t taken_ns = now_ns();
     if (bound && !glx_.MakeContextCurrent(display, draw, read, context)) {
       reason = "the program's context could not be made current again";
       return Attempt::kContextLost;
     }
+    frame.bind_ns = now_ns() - begin_ns - (taken_ns - bound_ns);
     if (own != nullptr) pool_.give(key, own);
     if (!taken) reason = bound ? "glReadPixels failed" : "the private context cannot be made current";
     return taken ? Attempt::kRead : Attempt::kNotBound;

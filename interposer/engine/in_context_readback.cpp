@@ -137,6 +137,7 @@ bool read_in_program_context(const GlFunctions& gl, const SurfaceShape& shape, b
     gl.ReadPixels(0, 0, static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height), layout, type,
                   pixels);
     frame.read_ns = now_ns() - begin_ns;
+    frame.bind_ns = 0;
   }
   frame.view = {pixels + pitch_bytes * (shape.height - 1),
                 -static_cast<ptrdiff_t>(pitch_bytes),

@@ -5,7 +5,8 @@
 
 namespace tilepress {
 
-SurfaceRegistry::Turn SurfaceRegistry::turn(const WindowKey& key, const SurfaceShape& shape) {
+SurfaceRegistry::Turn SurfaceRegistry::turn(const WindowKey& key, const SurfaceShape& shape,
+                                            uint64_t now_ns) {
   std::lock_guard lock(mutex_);
   std::optional<uint32_t> forgotten;
   auto window = std::find_if(windows_.begin(), windows_.end(), [&](const Window& w) { return w.key == key; });
@@ -17,7 +18,7 @@ SurfaceRegistry::Turn SurfaceRegistry::turn(const WindowKey& key, const SurfaceS
       forgotten = oldest->number;
       windows_.erase(oldest);
     }
-    windows_.push_back({key, shape, window_count_++, surface_count_++, 0, 0});
+    windows_.push_back({key, shape, window_count_++, surface_count_++, 0, 0, 0});
     window = windows_.end() - 1;
   } else if (window->shape != shape) {
     window->shape = shape;
@@ -25,13 +26,17 @@ SurfaceRegistry::Turn SurfaceRegistry::turn(const WindowKey& key, const SurfaceS
     window->frames = 0;
   }
   window->last_turn = ++turns_;
-  return {window->number, window->surface, window->frames, forgotten};
+  const uint64_t interval_ns = window->last_ns > 0 ? now_ns - window->last_ns : 0;
+  return {window->number, window->surface, window->frames, interval_ns, forgotten};
 }
 
-void SurfaceRegistry::presented(uint32_t number) {
+void SurfaceRegistry::presented(uint32_t number, uint64_t begin_ns) {
   std::lock_guard lock(mutex_);
-  for (Window& window : windows_)
-    if (window.number == number) ++window.frames;
+  for (Window& window : windows_) {
+    if (window.number != number) continue;
+    ++window.frames;
+    window.last_ns = begin_ns;
+  }
 }
 
 std::optional<uint32_t> SurfaceRegistry::forget(const WindowKey& key) {

@@ -35,12 +35,13 @@ class SurfaceRegistry {
   struct Turn {
     uint32_t window, surface;
     uint64_t frame;
+    uint64_t interval_ns;               ///< since the window's last present, from call to call; 0 = its first
     std::optional<uint32_t> forgotten;  ///< a window that had to make room
   };
   /// The numbers the next frame of the window bears; asking changes nothing but the shape. Thread-safe.
-  Turn turn(const WindowKey& key, const SurfaceShape& shape);
-  /// The window has presented the frame that turn() numbered.
-  void presented(uint32_t window);
+  Turn turn(const WindowKey& key, const SurfaceShape& shape, uint64_t now_ns);
+  /// The window has presented the frame that turn() numbered, in a call that came in at `begin_ns`.
+  void presented(uint32_t window, uint64_t begin_ns);
   /// The window is gone: what presents under its handle later is another. Its number, if it was known.
   std::optional<uint32_t> forget(const WindowKey& key);
   /// True the first time it is asked for `surface`: a thing to be said once.
@@ -54,6 +55,7 @@ class SurfaceRegistry {
     uint32_t surface;
     uint64_t frames;
     uint64_t last_turn;
+    uint64_t last_ns;  ///< 0 = has not presented
   };
   std::mutex mutex_;
   std::vector<Window> windows_;

@@ -80,6 +80,8 @@ class BadInput(CliCase):
         touch = ["--", "touch", "started"]
         self.expect(USAGE, "--frames 9-3: reversed range 9-3", "run", "--frames", "9-3", *touch)
         self.expect(USAGE, "--on-full wait: neither block nor drop", "run", "--on-full", "wait", *touch)
+        self.assertEqual(self.run_command("run", "--seconds", "0", *touch).returncode, USAGE)
+        self.assertEqual(self.run_command("run", "--rounds", "0", *touch).returncode, USAGE)
         self.expect(USAGE, "unknown option '--frob'", "run", "--frob", *touch)
         self.expect(USAGE, "unexpected argument 'frob'", "run", "frob", *touch)
         self.expect(USAGE, "no program given (see tilepress run --help)", "run")
@@ -121,6 +123,52 @@ class Captures(CliCase):
         counts = read_json(os.path.join(folder, "run.json"))["counts"]
         self.assertEqual((counts["seen"], counts["captured"], counts["skipped"]), (12, 3, 9))
         self.assertEqual([row["frame"] for row in read_rows(os.path.join(folder, "frames.csv"))], ["5", "6", "7"])
+
+    def test_the_overhead_compares_runs_that_count_with_runs_that_capture(self):
+        with XServer() as server:
+            done = self.run_command("run", "--measure-overhead", "--rounds", "2", "-o", "out", "-s", "red", "--",
+                                    "glmark2-es2", "--size", "160x120", "-b", "build:nframes=12:duration=100",
+                                    env={"DISPLAY": server.display})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # Once more each round, but only the runs with the shim leave a folder.
+        self.assertEqual(len(glob.glob(self.path("out/glmark2-es2-*"))), 2)
+        rows = read_rows(self.path("out/overhead.csv"))
+        self.assertEqual([(row["round"], row["shim"]) for row in rows],
+                         [("1", "without"), ("1", "with"), ("2", "with"), ("2", "without")])
+        for row in rows:
+            self.assertEqual((row["frames"], row["exit_status"]), ("12", "0"))
+            self.assertGreater(int(row["mean_ns"]), 0)
+            self.assertGreaterEqual(int(row["p95_ns"]), int(row["median_ns"]))
+        for number in ("1", "2"):
+            without, with_shim = ([row for row in rows if (row["round"], row["shim"]) == (number, side)][0]
+                                  for side in ("without", "with"))
+            self.assertEqual(without["ratio_mean"], "")
+            self.assertAlmostEqual(float(with_shim["ratio_mean"]), int(with_shim["mean_ns"]) / int(without["mean_ns"]), 4)
+        self.assertIn("frame-time ratio", done.stderr.decode())
+
+    def test_a_program_without_end_is_ended_after_its_seconds(self):
+        with XServer() as server:
+            done = self.run_command("run", "--measure-overhead", "--rounds", "1", "--seconds", "2", "-q", "-o", "out",
+                                    "-s", "red", "--", "glxgears", env={"DISPLAY": server.display})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("frame-time ratio", done.stderr.decode())
+        self.assertEqual([row["shim"] for row in read_rows(self.path("out/overhead.csv"))], ["without", "with"])
+        (folder,) = glob.glob(self.path("out/glxgears*"))
+        self.assertEqual(read_json(os.path.join(folder, "run.json"))["signal"], int(signal.SIGTERM))
+
+    def test_presents_tell_what_each_frame_cost(self):
+        with XServer() as server:
+            self.run_command("run", "-o", "out", "-s", "red", "--", "glmark2-es2", "--size", "160x120", "-b",
+                             "build:nframes=12:duration=100", env={"DISPLAY": server.display})
+        (name,) = glob.glob(self.path("out/glmark2-es2-*/presents.csv"))
+        rows = read_rows(name)
+        self.assertEqual(len(rows), 12)
+        self.assertEqual(list(rows[0])[-3:], ["bind_ns", "hand_off_ns", "interval_ns"])
+        self.assertEqual(rows[0]["interval_ns"], "0")
+        for row in rows[1:]:
+            # All of it lies between this present and the one before, except what follows the call.
+            self.assertGreater(int(row["interval_ns"]), 0)
+            self.assertGreaterEqual(int(row["readback_ns"]), int(row["read_ns"]) + int(row["bind_ns"]))
 
     def test_sigkill_leaves_every_finished_frame_readable(self):
         with XServer() as server:

@@ -1,0 +1,22 @@
+// Present times: rows appended from the presenting threads.
+#include "interposer/engine/present_times.h"
+
+#include <cstdlib>
+#include <string>
+
+namespace tilepress {
+
+PresentTimes::PresentTimes(int64_t pid) {
+  const char* folder = std::getenv("TILEPRESS_PRESENT_TIMES");
+  if (folder == nullptr || *folder == 0) return;
+  file_.create(std::string(folder) + "/" + std::to_string(pid) + ".times", "surface,begin_ns,hook_ns\n");
+}
+
+void PresentTimes::note(uintptr_t surface, uint64_t begin_ns, uint64_t hook_ns) {
+  const std::string row =
+      std::to_string(surface) + "," + std::to_string(begin_ns) + "," + std::to_string(hook_ns) + "\n";
+  const std::lock_guard lock(mutex_);
+  file_.append(row);
+}
+
+}  // namespace tilepress

@@ -1,0 +1,26 @@
+// Present times: when each frame was presented and what the hook took, for `tilepress run
+// --measure-overhead`.
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+
+#include "interposer/run/append_file.h"
+
+namespace tilepress {
+
+/// Writes `<TILEPRESS_PRESENT_TIMES>/<pid>.times`, a row `surface,begin_ns,hook_ns` per presented frame.
+/// Without the variable it is off. One write() per row: what ends the program loses none.
+class PresentTimes {
+ public:
+  explicit PresentTimes(int64_t pid);
+  bool on() const { return file_.is_open(); }
+  /// `begin_ns`: when the presenting call came in; `hook_ns`: what the shim took of it. Thread-safe.
+  void note(uintptr_t surface, uint64_t begin_ns, uint64_t hook_ns);
+
+ private:
+  std::mutex mutex_;
+  AppendFile file_;
+};
+
+}  // namespace tilepress
