@@ -8,6 +8,7 @@
 #include <cassert>
 #include <chrono>
 #include <deque>
+#include <optional>
 #include <utility>
 
 #include "block_check.h"
@@ -58,12 +59,13 @@ struct SurfaceEngine::State {
   ModelOptions options;
   std::deque<Collector> collectors;  ///< with frame_metrics the first is the default, theirs
   std::vector<Lane> lanes;
-  PixelPlane now, before;
+  PixelPlane now;
+  uint64_t changed = 0;  ///< pixels, since the frame before
   FrameMeter meter;
   BlockCheck check;
   uint64_t ordinal = 0;
-  bool has_before = false;
-  bool opened = false;  ///< lanes and collectors are there
+  bool has_before = false;  ///< now held a frame before this one
+  bool opened = false;      ///< lanes and collectors are there
   bool needs_ras = false, needs_ras_ycocg = false;
   std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere
   BlockBits* block_bits = nullptr;
@@ -218,14 +220,14 @@ void SurfaceEngine::State::end_frame(FrameStatistics& out) {
   }
   out.metrics = FrameMetrics{};
   if (options.frame_metrics)
-    out.metrics = meter.measure(now, has_before ? &before : nullptr, collectors.front().fvc);  // spends before
+    out.metrics =
+        meter.measure(now, has_before ? std::optional(changed) : std::nullopt, collectors.front().fvc);
   for (Collector& collector : collectors) {
     if (!collector.wanted || !collector.collecting) continue;
     collector.ccd.build(collector.fvc);
     collector.lookup.build(collector.ccd);
     collector.has_ccd = true;
   }
-  std::swap(now, before);
   has_before = true;
   ++ordinal;
 }
@@ -276,11 +278,9 @@ void SurfaceEngine::process(const SurfaceView& frame, FrameStatistics& out,
   const auto begin = std::chrono::steady_clock::now();
   State& state = *state_;
   const FormatTraits& format = traits(frame.format);
-  state.now.assign(frame);
-  if (state.opened)
-    assert(!state.has_before || state.now.same_shape(state.before));
-  else
-    state.open(format);
+  assert(!state.has_before || state.now.has_shape_of(frame));
+  state.changed = state.now.assign(frame);
+  if (!state.opened) state.open(format);
   out.width = frame.width;
   out.height = frame.height;
   out.format = frame.format;

@@ -1,6 +1,7 @@
 // Kernels: the inner loops of a block, one set per instruction set. The scalar set is the definition.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "simd/probe_table.h"
@@ -36,6 +37,12 @@ struct Kernels {
   /// Bits of the Golomb-Rice codes of four planes with their group headers, without the first pixels.
   /// samples: rows of 40 values, row -1 to 7; see ras_samples.h.
   uint32_t (*ras_code_bits)(const int16_t* samples);
+
+  /// Copies `count` words of 4 bytes, of any alignment, to `row`, bytes 0 and 2 of each exchanged if
+  /// `swap_red_blue`, and the bits of `set_bits` set. Returns how many words of `row` were not the same
+  /// before.
+  uint64_t (*replace_row)(const std::byte* words, uint32_t count, bool swap_red_blue, uint32_t set_bits,
+                          uint32_t* row);
 
   /// ras_samples of an 8×8 block of four 8-bit channels, borders left out.
   void (*widen_bytes)(const uint32_t* top_left, uint32_t stride, int16_t* samples);

@@ -169,6 +169,29 @@ uint32_t RasCodeBits(const int16_t* HWY_RESTRICT samples) {
   return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(d32, total)));
 }
 
+uint64_t ReplaceRow(const std::byte* words, uint32_t count, bool swap_red_blue, uint32_t set_bits,
+                    uint32_t* row) {
+  const Words d;
+  const auto bits = hn::Set(d, set_bits), kept = hn::Set(d, 0xFF00FF00u);
+  const size_t lanes = hn::Lanes(d);
+  const auto vector_at = [&](size_t x) HWY_ATTR {
+    const auto word = hn::LoadU(d, reinterpret_cast<const uint32_t*>(words) + x);
+    if (!swap_red_blue) return hn::Or(word, bits);
+    return hn::Or(hn::Or(hn::And(word, kept), hn::AndNot(kept, hn::RotateRight<16>(word))), bits);
+  };
+  auto same = hn::Zero(d);  // minus the number, by lane
+  size_t x = 0;
+  for (; x + lanes <= count; x += lanes) {
+    const auto word = vector_at(x);
+    same = hn::Add(same, hn::VecFromMask(d, hn::Eq(word, hn::LoadU(d, row + x))));
+    hn::StoreU(word, d, row + x);
+  }
+  const auto alike = static_cast<uint32_t>(0u - hn::GetLane(hn::SumOfLanes(d, same)));
+  return x - alike +
+         scalar_kernels().replace_row(words + x * 4, count - static_cast<uint32_t>(x), swap_red_blue,
+                                      set_bits, row + x);
+}
+
 void WidenBytes(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, int16_t* HWY_RESTRICT samples) {
   const Samples d;
   const hn::Rebind<uint8_t, Samples> d8;
@@ -181,8 +204,8 @@ void WidenBytes(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, int16_t*
 }
 
 const Kernels& Set(const char* name) {
-  static const Kernels kSet = {name,       LoadTraversal, Find,        WidthSum,
-                               CountBelow, Members,       RasCodeBits, WidenBytes};
+  static const Kernels kSet = {name,    LoadTraversal, Find,       WidthSum,  CountBelow,
+                               Members, RasCodeBits,   ReplaceRow, WidenBytes};
   return kSet;
 }
 

@@ -1,6 +1,7 @@
 // Scalar kernels: the plain definition of every kernel.
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "ras/ras_samples.h"
 #include "simd/kernel_sets.h"
@@ -85,6 +86,20 @@ uint32_t ras_code_bits(const int16_t* samples) {
   return bits;
 }
 
+uint64_t replace_row(const std::byte* words, uint32_t count, bool swap_red_blue, uint32_t set_bits,
+                     uint32_t* row) {
+  uint64_t changed = 0;
+  for (uint32_t x = 0; x < count; ++x) {
+    uint32_t word;
+    std::memcpy(&word, words + size_t{x} * 4, 4);
+    if (swap_red_blue) word = (word & 0xFF00FF00u) | (word >> 16 & 0xFFu) | (word & 0xFFu) << 16;
+    word |= set_bits;
+    changed += row[x] != word;
+    row[x] = word;
+  }
+  return changed;
+}
+
 void widen_bytes(const uint32_t* top_left, uint32_t stride, int16_t* samples) {
   for (uint32_t y = 0; y < kBlockSide; ++y)
     for (uint32_t x = 0; x < kBlockSide; ++x)
@@ -96,8 +111,8 @@ void widen_bytes(const uint32_t* top_left, uint32_t stride, int16_t* samples) {
 }  // namespace
 
 const Kernels& scalar_kernels() {
-  static const Kernels kScalar = {"scalar",    load_traversal, find,          width_sum,
-                                  count_below, members,        ras_code_bits, widen_bytes};
+  static const Kernels kScalar = {"scalar", load_traversal, find,        width_sum,  count_below,
+                                  members,  ras_code_bits,  replace_row, widen_bytes};
   return kScalar;
 }
 

@@ -62,59 +62,65 @@ bool FrameMeter::count_colors(const PixelPlane& frame, ColorHistogram& out) {
   return cache.flush();
 }
 
-bool FrameMeter::count_few(const PixelPlane& frame, const PixelPlane* before, const Fvc& fvc) {
-  std::swap(now_, before_);
-  const bool kept = std::exchange(before_valid_, false);
-  if (!count_colors(frame, now_)) return false;
-  before_valid_ = true;  // for the next frame
-  if (before != nullptr && !kept && !count_colors(*before, before_)) return false;
+void FrameMeter::count_few(bool compare, const Fvc& fvc) {
   for (const ColorHistogram::Entry& entry : now_.table()) {
     if (entry.count == 0) continue;
     profile_.add(entry.count);
-    if (before == nullptr) continue;
+    if (!compare) continue;
     const uint32_t was = before_.count(entry.color);
     change_.gained += entry.count > was ? entry.count - was : 0;
   }
   for (uint32_t slot = 0; slot < fvc.slots(); ++slot)
     if (fvc.valid(slot)) change_.held += now_.count(fvc.color(slot));
-  return true;
 }
 
-void FrameMeter::count_many(const PixelPlane& frame, PixelPlane* before, const Fvc& fvc) {
+void FrameMeter::count_many(const PixelPlane& frame, bool compare, const Fvc& fvc) {
+  if (compare && hashed_) distribution_.load(before_);
   std::vector<uint32_t> held;
   for (uint32_t slot = 0; slot < fvc.slots(); ++slot)
     if (fvc.valid(slot)) held.push_back(fvc.color(slot));
-  change_ = distribution_.count(frame, before, held, profile_);
+  change_ = distribution_.count(frame, compare, held, profile_);
 }
 
-FrameMetrics FrameMeter::measure(const PixelPlane& frame, PixelPlane* before, const Fvc& fvc) {
-  const double pixels = static_cast<double>(frame.width()) * frame.height();
-  FrameMetrics metrics;
-  if (before != nullptr) {
-    uint64_t changed = 0;
-    for (uint32_t y = 0; y < frame.height(); ++y) {
-      const uint32_t *now = frame.row(y), *then = before->row(y);
-      for (uint32_t x = 0; x < frame.width(); ++x) changed += now[x] != then[x];
-    }
-    metrics.pixel_change = static_cast<double>(changed) / pixels;
-  }
+FrameMetrics FrameMeter::measure(const PixelPlane& frame, std::optional<uint64_t> changed, const Fvc& fvc) {
+  const bool compare = changed.has_value();
   profile_.clear();
   change_ = {};
-  if (many_ || !count_few(frame, before, fvc)) count_many(frame, before, fvc);
+  std::swap(now_, before_);
+  if (!many_ && count_colors(frame, now_)) {
+    count_few(compare, fvc);
+    hashed_ = true;
+  } else {
+    count_many(frame, compare, fvc);
+    hashed_ = false;
+  }
   profile_.close();
+  const size_t pixels = size_t{frame.width()} * frame.height();
+  const auto share = [pixels](uint64_t part) {
+    return static_cast<double>(part) / static_cast<double>(pixels);
+  };
+  // Some way below the limit before it goes back: hashing and distributing by turns costs both.
+  many_ = profile_.colors() * kPixelsPerColor * (many_ ? 2 : 1) > pixels;
+  if (!many_ && !hashed_) {
+    hashed_ = count_colors(frame, now_);
+    many_ = !hashed_;
+  }
+
+  FrameMetrics metrics;
   metrics.unique_colors = profile_.colors();
-  metrics.entropy = profile_.entropy(pixels);
+  metrics.entropy = profile_.entropy(static_cast<double>(pixels));
   // Both frames have as many pixels, so what some colours gained others lost: half the sum of all differences
   // is the sum of the gains.
-  metrics.color_change = before != nullptr ? static_cast<double>(change_.gained) / pixels : 0;
-  many_ = profile_.colors() * kPixelsPerColor > size_t{frame.width()} * frame.height();
-  before_valid_ = before_valid_ && !many_;
+  if (compare) {
+    metrics.pixel_change = share(*changed);
+    metrics.color_change = share(change_.gained);
+  }
   uint64_t held_colors = 0;
   for (uint32_t slot = 0; slot < fvc.slots(); ++slot) held_colors += fvc.valid(slot);
   metrics.fvc_coverage = fvc.coverage();
   metrics.fvc_relative_coverage =
       static_cast<double>(change_.held) / static_cast<double>(profile_.most_frequent(held_colors));
-  metrics.top100_coverage = static_cast<double>(profile_.most_frequent(100)) / pixels;
+  metrics.top100_coverage = share(profile_.most_frequent(100));
   return metrics;
 }
 

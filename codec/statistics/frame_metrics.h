@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "statistics/color_distribution.h"
 #include "statistics/color_histogram.h"
@@ -12,24 +13,23 @@ namespace tilepress {
 
 class Fvc;
 
-/// Frames of few colours are counted in hash tables, kept for the next frame, that take an eighth of a raw
-/// frame together; frames of many are distributed.
+/// Frames of few colours are counted in hash tables that take an eighth of a raw frame together; frames of
+/// many are distributed. Either way the colours are kept for the next frame.
 class FrameMeter {
  public:
-  /// Measures `frame`; `before` is the frame before it, or null. `fvc` is the default FVC, fed with `frame`.
-  /// The pixels of `before` may be overwritten.
-  FrameMetrics measure(const PixelPlane& frame, PixelPlane* before, const Fvc& fvc);
+  /// Measures `frame`. `changed`: its pixels that differ from those of the frame measured last, which had the
+  /// same size; none if there was no such frame. `fvc` is the default FVC, fed with `frame`.
+  FrameMetrics measure(const PixelPlane& frame, std::optional<uint64_t> changed, const Fvc& fvc);
 
  private:
   /// False: no room for all colours.
   bool count_colors(const PixelPlane& frame, ColorHistogram& out);
-  /// False: too many colours; nothing was counted.
-  bool count_few(const PixelPlane& frame, const PixelPlane* before, const Fvc& fvc);
-  void count_many(const PixelPlane& frame, PixelPlane* before, const Fvc& fvc);
+  void count_few(bool compare, const Fvc& fvc);
+  void count_many(const PixelPlane& frame, bool compare, const Fvc& fvc);
 
   ColorHistogram now_, before_;
-  bool before_valid_ = false;  ///< before_ holds the frame measured last
-  bool many_ = false;          ///< colours are to be expected
+  bool hashed_ = false;  ///< the colours measured last are in now_; otherwise distributed
+  bool many_ = false;    ///< colours are to be expected
   ColorDistribution distribution_;
   CountProfile profile_;
   ColorDistribution::Change change_;

@@ -14,25 +14,24 @@ namespace tilepress {
 /// inside the surface (spec §2). Re-used from frame to frame: no allocation while the size stays.
 class PixelPlane {
  public:
-  /// Takes a copy of `view`. 16-bit pixels are stored one per word.
-  /// Precondition: 1 ≤ width, height ≤ kMaxSurfaceSide and a modelled format.
-  void assign(const SurfaceView& view);
+  /// Takes a copy of `view`. 16-bit pixels are stored one per word. Returns how many pixels differ from those
+  /// it held before; of no meaning if that was a frame of another size or format, or none. Precondition: 1 ≤
+  /// width, height ≤ kMaxSurfaceSide and a modelled format.
+  uint64_t assign(const SurfaceView& view);
 
   uint32_t width() const { return width_; }
   uint32_t height() const { return height_; }
-  uint32_t stride() const { return stride_; }            ///< words from row to row, = 8 · blocks_x
+  uint32_t stride() const { return stride_; }  ///< words from row to row, = 8 · blocks_x
   uint32_t blocks_x() const { return stride_ / kBlockSide; }
   uint32_t blocks_y() const { return padded_height_ / kBlockSide; }
   uint64_t blocks() const { return uint64_t{blocks_x()} * blocks_y(); }
   PixelFormat format() const { return format_; }
   const uint32_t* row(uint32_t y) const { return words_.data() + size_t{y} * stride_; }
-  /// Its words, at least width · height, as memory to be used until the next assign(): the frame is lost.
-  uint32_t* scratch() { return words_.data(); }
 
   /// Copies block (bx, by) out.
   void load_block(uint32_t bx, uint32_t by, Block& out) const;
-  bool same_shape(const PixelPlane& other) const {
-    return width_ == other.width_ && height_ == other.height_ && format_ == other.format_;
+  bool has_shape_of(const SurfaceView& view) const {
+    return width_ == view.width && height_ == view.height && format_ == view.format;
   }
 
  private:
