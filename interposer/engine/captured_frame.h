@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -31,7 +32,10 @@ struct CapturedFrame {
   std::byte* reserve(size_t bytes);
 
  private:
-  std::unique_ptr<std::byte[]> pixels_;
+  struct Free {
+    void operator()(std::byte* pixels) const { std::free(pixels); }
+  };
+  std::unique_ptr<std::byte, Free> pixels_;
   size_t capacity_ = 0;
 };
 

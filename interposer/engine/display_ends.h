@@ -1,4 +1,4 @@
-// Display ends: forgets the contexts kept for an X display when the program closes it.
+// Display ends: forgets the contexts and configs kept for an X display when the program closes it.
 #pragma once
 
 #include <X11/Xlib.h>
@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include "interposer/engine/config_cache.h"
 #include "interposer/engine/context_pool.h"
 
 namespace tilepress {
@@ -18,9 +19,10 @@ class DisplayEnds {
     static auto* const ends = new DisplayEnds;  // outlives everything
     return *ends;
   }
-  void add(ContextPool* pool) {
+  void add(ContextPool* pool, ConfigCache* configs) {
     std::lock_guard lock(mutex_);
     pools_.push_back(pool);
+    configs_.push_back(configs);
   }
   /// True the first time for `display`.
   bool watch(Display* display) {
@@ -35,12 +37,14 @@ class DisplayEnds {
     std::lock_guard lock(ends.mutex_);
     std::erase(ends.watched_, display);
     for (ContextPool* pool : ends.pools_) pool->take_all(display);
+    for (ConfigCache* configs : ends.configs_) configs->forget(display);
     return 0;
   }
 
  private:
   std::mutex mutex_;
   std::vector<ContextPool*> pools_;
+  std::vector<ConfigCache*> configs_;
   std::vector<Display*> watched_;
 };
 

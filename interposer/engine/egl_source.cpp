@@ -2,6 +2,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
+#include "interposer/engine/config_cache.h"
 #include "interposer/engine/context_pool.h"
 #include "interposer/engine/gl_readback.h"
 #include "interposer/engine/in_context_readback.h"
@@ -56,11 +57,10 @@ class EglSource final : public PresentSource {
         !egl_.QuerySurface(present.display, surface, EGL_HEIGHT, &height))
       return fail(reason, "eglQuerySurface failed");
     if (width < 1 || height < 1) return fail(reason, "the surface has no pixels");
-    EGLConfig config = nullptr;
-    if (!config_of(present, config)) return fail(reason, "the surface has no config");
+    const auto config = config_of(present);
+    if (!config) return fail(reason, "the surface has no config");
     key = {present.display, present.surface};
-    shape = {static_cast<uint32_t>(width), static_cast<uint32_t>(height),
-             format_of(bits_of(present.display, config))};
+    shape = {static_cast<uint32_t>(width), static_cast<uint32_t>(height), config->format};
     return true;
   }
 
@@ -81,6 +81,7 @@ class EglSource final : public PresentSource {
 
   void release(void* display) override {
     for (void* own : pool_.take_all(display)) egl_.DestroyContext(display, own);
+    configs_.forget(display);
   }
 
   GlStrings strings() const override {
@@ -105,8 +106,8 @@ class EglSource final : public PresentSource {
     const auto surface = reinterpret_cast<EGLSurface>(present.surface);
     const EGLContext context = egl_.GetCurrentContext();
     const EGLSurface draw = egl_.GetCurrentSurface(EGL_DRAW), read = egl_.GetCurrentSurface(EGL_READ);
-    EGLConfig config = nullptr;
-    config_of(present, config);
+    const auto known = config_of(present);
+    const EGLConfig config = known ? known->config : nullptr;
     const ContextPool::Key key{present.display, reinterpret_cast<uintptr_t>(config)};
     const uint64_t begin_ns = now_ns();
     EGLContext own = pool_.take(key);
@@ -136,13 +137,17 @@ class EglSource final : public PresentSource {
     return buffer == EGL_BACK_BUFFER;
   }
 
-  bool config_of(const TilepressPresent& present, EGLConfig& config) const {
-    EGLint id = 0, count = 0;
-    if (!egl_.QuerySurface(present.display, reinterpret_cast<EGLSurface>(present.surface), EGL_CONFIG_ID,
-                           &id))
-      return false;
-    const EGLint wanted[] = {EGL_CONFIG_ID, id, EGL_NONE};
-    return egl_.ChooseConfig(present.display, wanted, &config, 1, &count) && count == 1;
+  std::optional<KnownConfig> config_of(const TilepressPresent& present) {
+    EGLint id = 0;
+    const auto surface = reinterpret_cast<EGLSurface>(present.surface);
+    if (!egl_.QuerySurface(present.display, surface, EGL_CONFIG_ID, &id)) return std::nullopt;
+    return configs_.find({present.display, id, 0}, [&]() -> std::optional<KnownConfig> {
+      const EGLint wanted[] = {EGL_CONFIG_ID, id, EGL_NONE};
+      EGLConfig config = nullptr;
+      EGLint count = 0;
+      if (!egl_.ChooseConfig(present.display, wanted, &config, 1, &count) || count != 1) return std::nullopt;
+      return KnownConfig{config, format_of(bits_of(present.display, config))};
+    });
   }
 
   EGLint attribute(EGLDisplay display, EGLConfig config, EGLint name) const {
@@ -175,6 +180,7 @@ class EglSource final : public PresentSource {
   const EglFunctions egl_;
   const GlFunctions gl_;
   ContextPool pool_;
+  ConfigCache configs_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <GL/glx.h>
 #include <GL/glxext.h>
 
+#include "interposer/engine/config_cache.h"
 #include "interposer/engine/context_pool.h"
 #include "interposer/engine/display_ends.h"
 #include "interposer/engine/drawable_size.h"
@@ -57,7 +58,7 @@ class GlxSource final : public PresentSource {
  public:
   GlxSource(const GlxFunctions& glx, const GlFunctions& gl, DrawableSize size)
       : glx_(glx), gl_(gl), size_(std::move(size)) {
-    DisplayEnds::instance().add(&pool_);
+    DisplayEnds::instance().add(&pool_, &configs_);
   }
 
   bool describe(const TilepressPresent& present, WindowKey& key, SurfaceShape& shape,
@@ -65,8 +66,9 @@ class GlxSource final : public PresentSource {
     if (glx_.GetCurrentContext() == nullptr) return fail(reason, "no context is current");
     if (glx_.GetCurrentDrawable() != present.surface) return fail(reason, "the drawable is not current");
     Display* display = glx_.GetCurrentDisplay();
-    GLXFBConfig config = current_config(display);
-    if (config == nullptr) return fail(reason, "the context has no framebuffer config");
+    watch_end_of(display);
+    const auto config = current_config(display);
+    if (!config) return fail(reason, "the context has no framebuffer config");
     unsigned width = 0, height = 0;
     if (!size_.query(display, present.surface, width, height)) {
       // Not a window or pixmap, so a GLX drawable: asking GLX for it raises no X error.
@@ -75,7 +77,7 @@ class GlxSource final : public PresentSource {
     }
     if (width < 1 || height < 1) return fail(reason, "the drawable has no pixels");
     key = {display, present.surface};
-    shape = {width, height, format_of(bits_of(display, config))};
+    shape = {width, height, config->format};
     return true;
   }
 
@@ -90,7 +92,8 @@ class GlxSource final : public PresentSource {
         break;
     }
     Display* display = glx_.GetCurrentDisplay();
-    const bool double_buffered = attribute(display, current_config(display), GLX_DOUBLEBUFFER) != 0;
+    const auto config = current_config(display);
+    const bool double_buffered = config && config->double_buffered;
     if (read_in_program_context(gl_, shape, double_buffered, frame)) return true;
     if (reason.empty()) reason = "the program's context cannot be read";
     return false;
@@ -123,9 +126,9 @@ class GlxSource final : public PresentSource {
     const GLXContext context = glx_.GetCurrentContext();
     const GLXDrawable draw = glx_.GetCurrentDrawable(), read = glx_.GetCurrentReadDrawable();
     Display* display = glx_.GetCurrentDisplay();
-    const GLXFBConfig config = current_config(display);
+    const auto known = current_config(display);
+    const auto config = static_cast<GLXFBConfig>(known ? known->config : nullptr);
     const ContextPool::Key key{display, reinterpret_cast<uintptr_t>(config)};
-    watch_end_of(display);
     const uint64_t begin_ns = now_ns();
     auto own = static_cast<GLXContext>(pool_.take(key));
     if (own == nullptr)
@@ -153,16 +156,21 @@ class GlxSource final : public PresentSource {
   }
 
   /// The config of the current context. Config handles live as long as the display.
-  GLXFBConfig current_config(Display* display) const {
-    int id = 0, screen = 0, count = 0;
+  std::optional<KnownConfig> current_config(Display* display) {
+    int id = 0, screen = 0;
     const GLXContext context = glx_.GetCurrentContext();
-    if (glx_.QueryContext(display, context, GLX_FBCONFIG_ID, &id) != 0 || id == 0) return nullptr;
-    if (glx_.QueryContext(display, context, GLX_SCREEN, &screen) != 0) return nullptr;
-    const int wanted[] = {GLX_FBCONFIG_ID, id, 0};
-    GLXFBConfig* configs = glx_.ChooseFBConfig(display, screen, wanted, &count);
-    GLXFBConfig config = configs != nullptr && count > 0 ? configs[0] : nullptr;
-    if (configs != nullptr) glx_.Free(configs);
-    return config;
+    if (glx_.QueryContext(display, context, GLX_FBCONFIG_ID, &id) != 0 || id == 0) return std::nullopt;
+    if (glx_.QueryContext(display, context, GLX_SCREEN, &screen) != 0) return std::nullopt;
+    return configs_.find({display, id, screen}, [&]() -> std::optional<KnownConfig> {
+      const int wanted[] = {GLX_FBCONFIG_ID, id, 0};
+      int count = 0;
+      GLXFBConfig* found = glx_.ChooseFBConfig(display, screen, wanted, &count);
+      GLXFBConfig config = found != nullptr && count > 0 ? found[0] : nullptr;
+      if (found != nullptr) glx_.Free(found);
+      if (config == nullptr) return std::nullopt;
+      return KnownConfig{config, format_of(bits_of(display, config)),
+                         attribute(display, config, GLX_DOUBLEBUFFER) != 0};
+    });
   }
 
   int attribute(Display* display, GLXFBConfig config, int name) const {
@@ -180,6 +188,7 @@ class GlxSource final : public PresentSource {
   const GlFunctions gl_;
   const DrawableSize size_;
   ContextPool pool_;
+  ConfigCache configs_;
 };
 
 }  // namespace
