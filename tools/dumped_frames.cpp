@@ -1,8 +1,6 @@
 // Dumped frames: sizes come from frames.csv, pixels from the raw files.
 #include "dumped_frames.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +9,7 @@
 #include <map>
 #include <vector>
 
+#include "images/image_library.h"
 #include "tilepress/run_reader.h"
 
 namespace tilepress {
@@ -25,17 +24,17 @@ bool write_png(const fs::path& raw, const fs::path& png, const FrameStatistics& 
             " pixels";
     return false;
   }
-  const int channels = frame.format == PixelFormat::kRgba8 ? 4 : 3;
-  OIIO::ImageSpec spec(static_cast<int>(frame.width), static_cast<int>(frame.height), channels,
-                       OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  auto out = OIIO::ImageOutput::create(png.string());
-  if (out == nullptr || !out->open(png.string(), spec) ||
-      !out->write_image(OIIO::TypeDesc::UINT8, bytes.data(), 4) || !out->close()) {
-    error = png.string() + ": " + (out != nullptr ? out->geterror() : OIIO::geterror());
-    return false;
-  }
-  return true;
+  const ImageLibrary* library = image_library(error);
+  if (library == nullptr) return false;
+  const PngPixels pixels{.width = frame.width,
+                         .height = frame.height,
+                         .channels = frame.format == PixelFormat::kRgba8 ? 4u : 3u,
+                         .samples = bytes.data(),
+                         .pixel_bytes = 4};
+  std::string reason;
+  if (library->write_png(png.string(), pixels, reason)) return true;
+  error = png.string() + ": " + reason;
+  return false;
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
-// Image frames: OpenImageIO for images, plain reads for raw frames.
+// Image frames: the image library for images, plain reads for raw frames.
 #include "image_frames.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,19 +12,20 @@
 #include <cstring>
 #include <fstream>
 
+#include "images/image_library.h"
 #include "quiet_standard_error.h"
 
 namespace tilepress {
 
 struct ImageFrames::Source {
   std::string path;
-  int subimage = 0;
+  uint32_t subimage = 0;
   bool raw = false;
 };
 
 struct ImageFrames::Reader {
   std::string path;
-  OIIO::ImageInput::unique_ptr input;
+  std::unique_ptr<ImageFile> input;
 };
 
 namespace {
@@ -37,7 +37,7 @@ std::string first_line(std::string text) {
 }
 
 /// Opens an image with its alpha left as stored.
-OIIO::ImageInput::unique_ptr open_input(const std::string& path, std::string& error) {
+std::unique_ptr<ImageFile> open_input(const std::string& path, std::string& error) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) {
     error = path + ": " + std::strerror(errno);
@@ -47,11 +47,12 @@ OIIO::ImageInput::unique_ptr open_input(const std::string& path, std::string& er
     error = path + ": is a folder; name its images";
     return nullptr;
   }
-  OIIO::ImageSpec wishes;
-  wishes.attribute("oiio:UnassociatedAlpha", 1);
-  auto input = OIIO::ImageInput::open(path, &wishes);
+  const ImageLibrary* library = image_library(error);
+  if (library == nullptr) return nullptr;
+  std::string reason;
+  auto input = library->open(path, reason);
   if (!input) {
-    std::string reason = first_line(OIIO::geterror());
+    reason = first_line(reason);
     if (reason.find("could not find a format reader") != std::string::npos) reason = "not an image";
     if (access(path.c_str(), R_OK) != 0) reason = std::strerror(errno);
     error = path + ": " + (reason.empty() ? "not an image" : reason);
@@ -60,13 +61,12 @@ OIIO::ImageInput::unique_ptr open_input(const std::string& path, std::string& er
 }
 
 /// The reason why an image cannot be taken as it is, or empty.
-std::string refusal(const OIIO::ImageSpec& spec) {
-  if (spec.format != OIIO::TypeDesc::UINT8)
-    return std::string("has ") + spec.format.c_str() +
-           " channels; only 8 bits a channel are taken, nothing is narrowed";
-  if (spec.nchannels < 1 || spec.nchannels > 4)
-    return "has " + std::to_string(spec.nchannels) + " channels, not 1 to 4";
-  if (spec.depth > 1) return "is a volume";
+std::string refusal(const ImageHeader& image) {
+  if (image.sample_type != "uint8")
+    return "has " + image.sample_type + " channels; only 8 bits a channel are taken, nothing is narrowed";
+  if (image.channels < 1 || image.channels > 4)
+    return "has " + std::to_string(image.channels) + " channels, not 1 to 4";
+  if (image.volume) return "is a volume";
   return {};
 }
 
@@ -86,9 +86,9 @@ bool is_torn(const std::string& path, const std::string& format) {
 }
 
 /// Spreads 1 to 4 channels to R,G,B,A in place, from the last pixel backwards. `pixels` has room for 4.
-void spread_channels(std::vector<std::byte>& pixels, size_t count, int channels) {
+void spread_channels(std::vector<std::byte>& pixels, size_t count, uint32_t channels) {
   if (channels == 4) return;
-  const size_t stride = static_cast<size_t>(channels);
+  const size_t stride = channels;
   for (size_t i = count; i-- > 0;) {
     const std::byte* from = pixels.data() + i * stride;
     const bool gray = channels < 3;
@@ -160,23 +160,21 @@ bool ImageFrames::open_image(const std::string& path, std::string& error) {
   const QuietStandardError quiet;
   const auto input = open_input(path, error);
   if (!input) return false;
-  if (is_torn(path, input->format_name())) {
+  if (is_torn(path, input->kind())) {
     error = path + ": is cut off";
     return false;
   }
-  for (int subimage = 0; input->seek_subimage(subimage, 0); ++subimage) {
-    const OIIO::ImageSpec spec = input->spec(subimage, 0);
+  ImageHeader image;
+  for (uint32_t subimage = 0; input->header(subimage, image); ++subimage) {
     const std::string name = subimage == 0 ? path : path + " image " + std::to_string(subimage);
-    if (const std::string reason = refusal(spec); !reason.empty()) {
+    if (const std::string reason = refusal(image); !reason.empty()) {
       error = name + ": " + reason;
       return false;
     }
-    if (!accept(name, {static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height)}, error))
-      return false;
-    if (spec.nchannels == 2 || spec.nchannels == 4) format_ = PixelFormat::kRgba8;
+    if (!accept(name, {image.width, image.height}, error)) return false;
+    if (image.channels == 2 || image.channels == 4) format_ = PixelFormat::kRgba8;
     sources_.push_back({path, subimage, false});
   }
-  input->geterror();  // the seek past the last image
   return true;
 }
 
@@ -254,20 +252,20 @@ ImageFrames::Outcome ImageFrames::read(uint64_t index, ImageFrame& out, std::str
       reader_ = std::make_unique<Reader>(Reader{source.path, open_input(source.path, error)});
       if (!reader_->input) return Outcome::kFailed;
     }
-    OIIO::ImageInput& input = *reader_->input;
-    const OIIO::ImageSpec spec = input.spec(source.subimage, 0);
-    const bool same = refusal(spec).empty() && static_cast<uint32_t>(spec.width) == size_.width &&
-                      static_cast<uint32_t>(spec.height) == size_.height;
+    ImageFile& input = *reader_->input;
+    ImageHeader image;
+    std::string reason;
+    const bool same = input.header(source.subimage, image) && refusal(image).empty() &&
+                      image.width == size_.width && image.height == size_.height;
     if (!same) {
       error = source.path + ": has changed since it was first looked at";
       outcome = Outcome::kFailed;
-    } else if (!input.read_image(source.subimage, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8,
-                                 out.pixels.data())) {
-      const std::string reason = first_line(input.geterror());
+    } else if (!input.read(source.subimage, image.channels, out.pixels.data(), reason)) {
+      reason = first_line(reason);
       error = source.path + ": " + (reason.empty() ? "cannot be decoded" : reason);
       outcome = Outcome::kFailed;
     } else {
-      spread_channels(out.pixels, pixel_count, spec.nchannels);
+      spread_channels(out.pixels, pixel_count, image.channels);
     }
   }
   out.decode_ns = static_cast<uint64_t>(

@@ -1,12 +1,12 @@
-// Image writer: OpenImageIO for PNG.
+// Image writer: words to samples.
 #include "image_writer.h"
-
-#include <OpenImageIO/imageio.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <vector>
+
+#include "images/image_library.h"
 
 namespace tilepress {
 namespace {
@@ -49,24 +49,14 @@ bool write_png(const std::string& path, std::span<const uint32_t> words, uint32_
           static_cast<uint16_t>(widen(channel(bits, word, index), bits.channel_bits[c], depth)));
     }
 
-  OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), static_cast<int>(channels),
-                       depth == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  const auto output = OIIO::ImageOutput::create(path);
-  if (!output || !output->open(path, spec)) {
-    const std::string reason = output ? output->geterror() : OIIO::geterror();
-    error = path + ": " + (reason.empty() ? std::strerror(errno) : reason);
-    return false;
-  }
-  bool written;
-  if (depth == 16) {
-    written = output->write_image(OIIO::TypeDesc::UINT16, samples.data());
-  } else {
-    const std::vector<uint8_t> bytes(samples.begin(), samples.end());
-    written = output->write_image(OIIO::TypeDesc::UINT8, bytes.data());
-  }
-  if (written && output->close()) return true;
-  error = path + ": " + output->geterror();
+  const ImageLibrary* library = image_library(error);
+  if (library == nullptr) return false;
+  const std::vector<uint8_t> bytes(samples.begin(), samples.end());
+  PngPixels pixels{.width = width, .height = height, .channels = channels, .channel_bits = depth};
+  pixels.samples = depth == 16 ? static_cast<const void*>(samples.data()) : bytes.data();
+  std::string reason;
+  if (library->write_png(path, pixels, reason)) return true;
+  error = path + ": " + (reason.empty() ? std::strerror(errno) : reason);
   return false;
 }
 

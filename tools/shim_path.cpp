@@ -10,7 +10,7 @@ std::optional<std::string> find_shim(const std::string& library, std::string& lo
   std::error_code code;
   const fs::path self = fs::read_symlink("/proc/self/exe", code);
   const fs::path prefix = self.parent_path().parent_path();
-  for (const char* folder : {"lib", "interposer"}) {
+  for (const char* folder : {"lib", "lib/tilepress", "interposer"}) {
     const fs::path candidate = prefix / folder / library;
     if (fs::is_regular_file(candidate, code)) return candidate.string();
     looked += (looked.empty() ? "" : ", ") + candidate.string();

@@ -1,4 +1,4 @@
-// Shim path: where the library lies that is preloaded.
+// Shim path: where the libraries lie that are preloaded, or loaded when needed.
 #pragma once
 
 #include <optional>
@@ -6,7 +6,8 @@
 
 namespace tilepress {
 
-/// Looks for `library` relative to this executable: in an installed tree (../lib) and in a build tree
+/// Looks for `library` relative to this executable: in an installed tree (../lib, ../lib/tilepress) and in a
+/// build tree
 /// (../interposer). Absolute. `looked` receives the places tried, for an error line.
 std::optional<std::string> find_shim(const std::string& library, std::string& looked);
 

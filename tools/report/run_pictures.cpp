@@ -1,8 +1,6 @@
 // Run pictures: box filter for thumbnails, PGM reader and a dark-to-yellow colour map for heat maps.
 #include "run_pictures.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,8 @@
 #include <iterator>
 #include <map>
 #include <sstream>
+
+#include "images/image_library.h"
 
 namespace tilepress {
 namespace {
@@ -42,7 +42,7 @@ std::array<uint8_t, 3> heat_color(double share) {
   return out;
 }
 
-std::string base64(const std::vector<unsigned char>& bytes) {
+std::string base64(const std::vector<uint8_t>& bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
   for (size_t i = 0; i < bytes.size(); i += 3) {
@@ -56,29 +56,24 @@ std::string base64(const std::vector<unsigned char>& bytes) {
 
 /// A data URI of an RGB picture; empty on failure.
 std::string png_uri(const std::vector<uint8_t>& pixels, uint32_t width, uint32_t height) {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  auto out = OIIO::ImageOutput::create("png");
-  if (out == nullptr) return "";
-  OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("png:compressionLevel", 9);
-  if (!out->set_ioproxy(&memory) || !out->open("memory.png", spec) ||
-      !out->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !out->close())
-    return "";
-  return "data:image/png;base64," + base64(bytes);
+  std::string error;
+  const ImageLibrary* library = image_library(error);
+  if (library == nullptr) return "";
+  const std::vector<uint8_t> bytes =
+      library->encode_png({.width = width, .height = height, .channels = 3, .samples = pixels.data()});
+  return bytes.empty() ? "" : "data:image/png;base64," + base64(bytes);
 }
 
 std::string thumbnail_of(const std::string& path, RunPicture& picture) {
-  OIIO::ImageSpec wishes;
-  wishes.attribute("oiio:UnassociatedAlpha", 1);
-  auto input = OIIO::ImageInput::open(path, &wishes);
-  if (input == nullptr || input->spec().nchannels < 3) return "";
-  const uint32_t width = static_cast<uint32_t>(input->spec().width),
-                 height = static_cast<uint32_t>(input->spec().height);
-  const size_t channels = static_cast<size_t>(input->spec().nchannels);
+  std::string error;
+  const ImageLibrary* library = image_library(error);
+  const auto file = library == nullptr ? nullptr : library->open(path, error);
+  ImageHeader header;
+  if (file == nullptr || !file->header(0, header) || header.channels < 3) return "";
+  const uint32_t width = header.width, height = header.height;
+  const size_t channels = header.channels;
   std::vector<uint8_t> pixels(size_t{width} * height * channels);
-  if (!input->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::UINT8, pixels.data()))
-    return "";
+  if (!file->read(0, header.channels, reinterpret_cast<std::byte*>(pixels.data()), error)) return "";
   std::vector<uint8_t> small;
   for (uint32_t y = 0; y < picture.height; ++y)
     for (uint32_t x = 0; x < picture.width; ++x) {

@@ -1,0 +1,44 @@
+// Image library: found as the shim is found, relative to the command.
+#include "images/image_library.h"
+
+#include <dlfcn.h>
+
+#include "shim_path.h"
+
+namespace tilepress {
+namespace {
+
+struct Loaded {
+  const ImageLibrary* library = nullptr;
+  std::string error;
+};
+
+Loaded load() {
+  constexpr const char* kName = "libtilepress-images.so";
+  Loaded out;
+  std::string looked;
+  const auto path = find_shim(kName, looked);
+  if (!path) {
+    out.error = std::string(kName) + ": not found, looked for " + looked;
+    return out;
+  }
+  void* module = dlopen(path->c_str(), RTLD_NOW | RTLD_LOCAL);
+  using Function = const ImageLibrary* (*)();
+  const auto function =
+      module == nullptr ? nullptr : reinterpret_cast<Function>(dlsym(module, "tilepress_image_library"));
+  if (function == nullptr)
+    out.error = dlerror();
+  else
+    out.library = function();
+  return out;
+}
+
+}  // namespace
+
+const ImageLibrary* image_library(std::string& error) {
+  static const Loaded loaded = load();
+  if (loaded.library == nullptr) error = loaded.error;
+  return loaded.library;
+}
+
+}  // namespace tilepress

@@ -1,0 +1,94 @@
+// OIIO images: the image library by OpenImageIO, as a module.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include "images/image_library.h"
+
+namespace tilepress {
+namespace {
+
+class OiioFile final : public ImageFile {
+ public:
+  explicit OiioFile(OIIO::ImageInput::unique_ptr input) : input_(std::move(input)) {}
+  std::string kind() const override { return input_->format_name(); }
+
+  bool header(uint32_t image, ImageHeader& out) override {
+    if (!input_->seek_subimage(static_cast<int>(image), 0)) {
+      input_->geterror();  // a seek past the last image leaves one
+      return false;
+    }
+    const OIIO::ImageSpec spec = input_->spec(static_cast<int>(image), 0);
+    out = {.width = static_cast<uint32_t>(spec.width),
+           .height = static_cast<uint32_t>(spec.height),
+           .channels = static_cast<uint32_t>(spec.nchannels),
+           .sample_type = spec.format.c_str(),
+           .volume = spec.depth > 1};
+    return true;
+  }
+
+  bool read(uint32_t image, uint32_t channels, std::byte* out, std::string& reason) override {
+    if (input_->read_image(static_cast<int>(image), 0, 0, static_cast<int>(channels), OIIO::TypeDesc::UINT8,
+                           out))
+      return true;
+    reason = input_->geterror();
+    return false;
+  }
+
+ private:
+  OIIO::ImageInput::unique_ptr input_;
+};
+
+class OiioLibrary final : public ImageLibrary {
+ public:
+  std::unique_ptr<ImageFile> open(const std::string& path, std::string& reason) const override {
+    OIIO::ImageSpec wishes;
+    wishes.attribute("oiio:UnassociatedAlpha", 1);
+    auto input = OIIO::ImageInput::open(path, &wishes);
+    if (input) return std::make_unique<OiioFile>(std::move(input));
+    reason = OIIO::geterror();
+    return nullptr;
+  }
+
+  bool write_png(const std::string& path, const PngPixels& pixels, std::string& reason) const override {
+    const auto output = OIIO::ImageOutput::create("png");
+    if (output && output->open(path, spec_of(pixels)) && write(*output, pixels)) return true;
+    reason = output ? output->geterror() : OIIO::geterror();
+    return false;
+  }
+
+  std::vector<uint8_t> encode_png(const PngPixels& pixels) const override {
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create("png");
+    OIIO::ImageSpec spec = spec_of(pixels);
+    spec.attribute("png:compressionLevel", 9);
+    if (!output || !output->set_ioproxy(&memory) || !output->open("memory.png", spec) ||
+        !write(*output, pixels))
+      return {};
+    return bytes;
+  }
+
+ private:
+  static OIIO::TypeDesc type_of(const PngPixels& pixels) {
+    return pixels.channel_bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
+  }
+  static OIIO::ImageSpec spec_of(const PngPixels& pixels) {
+    OIIO::ImageSpec spec(static_cast<int>(pixels.width), static_cast<int>(pixels.height),
+                         static_cast<int>(pixels.channels), type_of(pixels));
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    return spec;
+  }
+  static bool write(OIIO::ImageOutput& output, const PngPixels& pixels) {
+    const OIIO::stride_t stride =
+        pixels.pixel_bytes == 0 ? OIIO::AutoStride : static_cast<OIIO::stride_t>(pixels.pixel_bytes);
+    return output.write_image(type_of(pixels), pixels.samples, stride) && output.close();
+  }
+};
+
+}  // namespace
+}  // namespace tilepress
+
+extern "C" __attribute__((visibility("default"))) const tilepress::ImageLibrary* tilepress_image_library() {
+  static const tilepress::OiioLibrary library;
+  return &library;
+}
