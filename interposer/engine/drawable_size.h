@@ -1,4 +1,4 @@
-// Drawable size: the size of an X window, asked so that no X error can reach the program's error handler.
+// Drawable size: the size and visual of an X window, asked so that no X error can reach the program's error handler.
 #pragma once
 
 #include <X11/Xlib.h>
@@ -14,14 +14,17 @@ namespace tilepress {
 class DrawableSize {
  public:
   explicit DrawableSize(const LibrarySymbols& library);
-  /// False if `drawable` is neither a window nor a pixmap of the server, or XCB is not to be had.
-  bool query(Display* display, XID drawable, unsigned& width, unsigned& height) const;
+  /// False if `drawable` is neither a window nor a pixmap of the server, or XCB is not to be had. `visual` is a
+  /// window's, else 0. One round trip to the server.
+  bool query(Display* display, XID drawable, unsigned& width, unsigned& height, VisualID& visual) const;
 
  private:
   using GetConnection = xcb_connection_t* (*)(Display*);
   GetConnection get_connection_ = nullptr;
   void* get_geometry_ = nullptr;
   void* get_geometry_reply_ = nullptr;
+  void* get_attributes_ = nullptr;
+  void* get_attributes_reply_ = nullptr;
 };
 
 }  // namespace tilepress

@@ -25,6 +25,7 @@ struct EglFunctions {
   decltype(&eglGetProcAddress) GetProcAddress = nullptr;
   decltype(&eglMakeCurrent) MakeCurrent = nullptr;
   decltype(&eglQueryAPI) QueryAPI = nullptr;
+  decltype(&eglQueryContext) QueryContext = nullptr;
   decltype(&eglQuerySurface) QuerySurface = nullptr;
 
   bool load(const LibrarySymbols& library) {
@@ -38,7 +39,7 @@ struct EglFunctions {
            fill(GetCurrentDisplay, "eglGetCurrentDisplay") &&
            fill(GetCurrentSurface, "eglGetCurrentSurface") && fill(GetProcAddress, "eglGetProcAddress") &&
            fill(MakeCurrent, "eglMakeCurrent") && fill(QueryAPI, "eglQueryAPI") &&
-           fill(QuerySurface, "eglQuerySurface");
+           fill(QueryContext, "eglQueryContext") && fill(QuerySurface, "eglQuerySurface");
   }
 };
 
@@ -66,7 +67,8 @@ class EglSource final : public PresentSource {
 
   bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
             std::string& reason) override {
-    switch (in_program_context_only() ? Attempt::kNotBound : read_privately(present, shape, frame, reason)) {
+    const bool stay = in_program_context_only() || context_is_destroyed(present.display);
+    switch (stay ? Attempt::kNotBound : read_privately(present, shape, frame, reason)) {
       case Attempt::kRead:
         return true;
       case Attempt::kContextLost:
@@ -97,6 +99,12 @@ class EglSource final : public PresentSource {
   static bool fail(std::string& reason, const char* text) {
     reason = text;
     return false;
+  }
+
+  /// The program has destroyed its context, which lives on until something else is made current.
+  bool context_is_destroyed(EGLDisplay display) const {
+    EGLint id = 0;
+    return !egl_.QueryContext(display, egl_.GetCurrentContext(), EGL_CONFIG_ID, &id);
   }
 
   enum class Attempt { kRead, kNotBound, kContextLost };

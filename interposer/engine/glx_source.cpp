@@ -22,6 +22,7 @@ struct GlxFunctions {
   decltype(&glXChooseFBConfig) ChooseFBConfig = nullptr;
   decltype(&glXCreateNewContext) CreateNewContext = nullptr;
   decltype(&glXDestroyContext) DestroyContext = nullptr;
+  PFNGLXGETCONTEXTIDEXTPROC GetContextIDEXT = nullptr;  ///< may be null
   decltype(&glXGetCurrentContext) GetCurrentContext = nullptr;
   decltype(&glXGetCurrentDisplay) GetCurrentDisplay = nullptr;
   decltype(&glXGetCurrentDrawable) GetCurrentDrawable = nullptr;
@@ -41,6 +42,7 @@ struct GlxFunctions {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(library.find(name));
       return function != nullptr;
     };
+    fill(GetContextIDEXT, "glXGetContextIDEXT");
     return fill(ChooseFBConfig, "glXChooseFBConfig") && fill(CreateNewContext, "glXCreateNewContext") &&
            fill(DestroyContext, "glXDestroyContext") && fill(GetCurrentContext, "glXGetCurrentContext") &&
            fill(GetCurrentDisplay, "glXGetCurrentDisplay") &&
@@ -67,14 +69,16 @@ class GlxSource final : public PresentSource {
     if (glx_.GetCurrentDrawable() != present.surface) return fail(reason, "the drawable is not current");
     Display* display = glx_.GetCurrentDisplay();
     watch_end_of(display);
-    const auto config = current_config(display);
-    if (!config) return fail(reason, "the context has no framebuffer config");
-    unsigned width = 0, height = 0;
-    if (!size_.query(display, present.surface, width, height)) {
+    unsigned width = 0, height = 0, drawable_config = 0;
+    VisualID visual = 0;
+    if (!size_.query(display, present.surface, width, height, visual)) {
       // Not a window or pixmap, so a GLX drawable: asking GLX for it raises no X error.
       glx_.QueryDrawable(display, present.surface, GLX_WIDTH, &width);
       glx_.QueryDrawable(display, present.surface, GLX_HEIGHT, &height);
+      glx_.QueryDrawable(display, present.surface, GLX_FBCONFIG_ID, &drawable_config);
     }
+    const auto& config = described() = find_config(display, static_cast<int>(drawable_config), visual);
+    if (!config) return fail(reason, "the context has no framebuffer config");
     if (width < 1 || height < 1) return fail(reason, "the drawable has no pixels");
     key = {display, present.surface};
     shape = {width, height, config->format};
@@ -83,7 +87,8 @@ class GlxSource final : public PresentSource {
 
   bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
             std::string& reason) override {
-    switch (in_program_context_only() ? Attempt::kNotBound : read_privately(present, shape, frame, reason)) {
+    const bool stay = in_program_context_only() || context_is_destroyed();
+    switch (stay ? Attempt::kNotBound : read_privately(present, shape, frame, reason)) {
       case Attempt::kRead:
         return true;
       case Attempt::kContextLost:
@@ -91,9 +96,7 @@ class GlxSource final : public PresentSource {
       default:
         break;
     }
-    Display* display = glx_.GetCurrentDisplay();
-    const auto config = current_config(display);
-    const bool double_buffered = config && config->double_buffered;
+    const bool double_buffered = described() && described()->double_buffered;
     if (read_in_program_context(gl_, shape, double_buffered, frame)) return true;
     if (reason.empty()) reason = "the program's context cannot be read";
     return false;
@@ -119,6 +122,12 @@ class GlxSource final : public PresentSource {
     return false;
   }
 
+  /// The program has destroyed its context, which lives on until something else is made current, without a
+  /// number.
+  bool context_is_destroyed() const {
+    return glx_.GetContextIDEXT != nullptr && glx_.GetContextIDEXT(glx_.GetCurrentContext()) == None;
+  }
+
   enum class Attempt { kRead, kNotBound, kContextLost };
 
   Attempt read_privately(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
@@ -126,8 +135,7 @@ class GlxSource final : public PresentSource {
     const GLXContext context = glx_.GetCurrentContext();
     const GLXDrawable draw = glx_.GetCurrentDrawable(), read = glx_.GetCurrentReadDrawable();
     Display* display = glx_.GetCurrentDisplay();
-    const auto known = current_config(display);
-    const auto config = static_cast<GLXFBConfig>(known ? known->config : nullptr);
+    const auto config = static_cast<GLXFBConfig>(described() ? described()->config : nullptr);
     const ContextPool::Key key{display, reinterpret_cast<uintptr_t>(config)};
     const uint64_t begin_ns = now_ns();
     auto own = static_cast<GLXContext>(pool_.take(key));
@@ -155,17 +163,35 @@ class GlxSource final : public PresentSource {
     if (codes != nullptr) glx_.SetCloseDisplay(display, codes->extension, DisplayEnds::on_close);
   }
 
-  /// The config of the current context. Config handles live as long as the display.
-  std::optional<KnownConfig> current_config(Display* display) {
+  /// What describe() found; read() follows on the same thread.
+  static std::optional<KnownConfig>& described() {
+    static thread_local std::optional<KnownConfig> config;
+    return config;
+  }
+
+  /// The config of the current context; of one that was made for a visual (where Mesa answers -1) the
+  /// drawable's, or the window's visual's.
+  std::optional<KnownConfig> find_config(Display* display, int drawable_config, VisualID visual) {
     int id = 0, screen = 0;
     const GLXContext context = glx_.GetCurrentContext();
-    if (glx_.QueryContext(display, context, GLX_FBCONFIG_ID, &id) != 0 || id == 0) return std::nullopt;
     if (glx_.QueryContext(display, context, GLX_SCREEN, &screen) != 0) return std::nullopt;
-    return configs_.find({display, id, screen}, [&]() -> std::optional<KnownConfig> {
-      const int wanted[] = {GLX_FBCONFIG_ID, id, 0};
+    if (glx_.QueryContext(display, context, GLX_FBCONFIG_ID, &id) != 0 || id <= 0) id = drawable_config;
+    if (id > 0) return known_config(display, screen, GLX_FBCONFIG_ID, id);
+    return visual != 0 ? known_config(display, screen, GLX_VISUAL_ID, static_cast<int>(visual))
+                       : std::nullopt;
+  }
+
+  /// The first config of the screen whose attribute `name` is `number`. Handles live as long as the display.
+  std::optional<KnownConfig> known_config(Display* display, int screen, int name, int number) {
+    const int key = name == GLX_VISUAL_ID ? ~number : number;  // numbers of either kind are positive
+    return configs_.find({display, key, screen}, [&]() -> std::optional<KnownConfig> {
+      const int all[] = {GLX_RENDER_TYPE, static_cast<int>(GLX_DONT_CARE), GLX_DRAWABLE_TYPE,
+                         static_cast<int>(GLX_DONT_CARE), 0};
       int count = 0;
-      GLXFBConfig* found = glx_.ChooseFBConfig(display, screen, wanted, &count);
-      GLXFBConfig config = found != nullptr && count > 0 ? found[0] : nullptr;
+      GLXFBConfig* found = glx_.ChooseFBConfig(display, screen, all, &count);
+      GLXFBConfig config = nullptr;
+      for (int i = 0; found != nullptr && i < count && config == nullptr; ++i)
+        if (attribute(display, found[i], name) == number) config = found[i];
       if (found != nullptr) glx_.Free(found);
       if (config == nullptr) return std::nullopt;
       return KnownConfig{config, format_of(bits_of(display, config)),

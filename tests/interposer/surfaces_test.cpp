@@ -96,6 +96,65 @@ TEST(Surfaces, DamageRectanglesAreRecordedAndRefusedPresentsAreNoFrames) {
   EXPECT_EQ(run.runs[0].presents[2].at("damage"), "1 2 3 4;50 6 7 8");
 }
 
+/// Runs glx_presents with and without the shim: the same output, and three known frames.
+ShimRun run_glx_presents(ShimTest& test, const char* mode) {
+  const std::map<std::string, std::string> on_display = {{"DISPLAY", own_display()}};
+  const ShimRun run = test.run({TILEPRESS_GLX_PRESENTS, mode}, on_display);
+  const ProcessResult without =
+      run_process({TILEPRESS_GLX_PRESENTS, mode}, {{"LD_PRELOAD", ""}, {"DISPLAY", own_display()}});
+  EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
+  EXPECT_EQ(run.process.out, without.out);
+  EXPECT_EQ(run.process.err, without.err);
+  EXPECT_EQ(run.runs.size(), 1u) << run.log;
+  if (run.runs.size() == 1) expect_surface(test, run.runs[0], 0, 3, 64, 48, false);
+  return run;
+}
+
+class GlxPresents : public ::testing::TestWithParam<Road> {};
+
+TEST_P(GlxPresents, CopySubBufferIsAPresentWithItsRectangle) {
+  ShimTest test(GetParam());
+  const ShimRun run = run_glx_presents(test, "copy");
+  ASSERT_EQ(run.runs.size(), 1u);
+  ASSERT_EQ(run.runs[0].presents.size(), 3u);
+  EXPECT_EQ(run.runs[0].presents[0].at("damage"), "0 4 16 12");
+  EXPECT_EQ(run.runs[0].presents[2].at("damage"), "16 4 16 12");
+}
+
+TEST_P(GlxPresents, SwapBuffersMscIsAPresentUnlessItIsRefused) {
+  ShimTest test(GetParam());
+  const ShimRun run = run_glx_presents(test, "msc");
+  EXPECT_EQ(run.process.out.rfind("swap refused, done\n", 0), 0u) << run.process.out;
+  ASSERT_EQ(run.runs.size(), 1u);
+  EXPECT_EQ(run.runs[0].json_number("seen"), 3);
+}
+
+// Making another context current would be the end of it: the frames are read in the context itself.
+TEST_P(GlxPresents, AContextDestroyedWhileCurrentLivesOn) {
+  ShimTest test(GetParam());
+  run_glx_presents(test, "destroyed");
+}
+
+TEST_P(GlxPresents, ASingleBufferedWindowIsReadToo) {
+  ShimTest test(GetParam());
+  run_glx_presents(test, "single");
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, GlxPresents, ::testing::Values(Road::kPreload, Road::kGlvnd, Road::kBoth),
+                         [](const auto& road) {
+                           return road.param == Road::kPreload ? "Preload"
+                                  : road.param == Road::kGlvnd ? "Glvnd"
+                                                               : "Both";
+                         });
+
+TEST(Surfaces, AContextDestroyedWhileCurrentBehavesAsWithoutTheShim) {
+  ShimTest test;
+  const ShimRun run = run_scene(test, {"destroyed"});
+  const ProcessResult without = run_process({TILEPRESS_EGL_SCENES, "destroyed"}, {{"LD_PRELOAD", ""}});
+  EXPECT_EQ(run.process.status, without.status);
+  EXPECT_EQ(run.process.out, without.out);
+}
+
 TEST(Surfaces, FailedSwapsFailAsWithoutTheShimAndAreNoFrames) {
   ShimTest test;
   const ShimRun run = run_scene(test, {"failures"});

@@ -70,6 +70,23 @@ static void terminate(void) {
   }
 }
 
+/* A context that is destroyed while it is current: it lives on until another is made current. */
+static void destroyed(void) {
+  EGLConfig config = exact_config(display, kRgba8);
+  EGLSurface surface = make_pbuffer(display, config, 32, 32);
+  EGLContext context = make_context(display, config, 2);
+  if (!eglMakeCurrent(display, surface, surface, context)) exit(9);
+  draw_and_swap(surface, 0, 32, 32);
+  eglDestroyContext(display, context);
+  for (unsigned frame = 1; frame < 4; ++frame) {
+    draw_known_picture(&kLinkedGl, frame, 32, 32);
+    const EGLBoolean result = eglSwapBuffers(display, surface);
+    printf("swap %u 0x%x\n", result, (unsigned)eglGetError());
+  }
+  printf("GL error 0x%x, EGL error 0x%x, current %d\n", (unsigned)glGetError(), (unsigned)eglGetError(),
+         eglGetCurrentContext() == context);
+}
+
 /* Swaps that fail: of a surface that is not current, and without a context. Then one that succeeds. */
 static void failures(void) {
   EGLConfig config = exact_config(display, kRgba8);
@@ -107,6 +124,7 @@ int main(int argc, char** argv) {
   if (strcmp(argv[1], "alternate") == 0) alternate();
   if (strcmp(argv[1], "recreate") == 0) recreate();
   if (strcmp(argv[1], "terminate") == 0) terminate();
+  if (strcmp(argv[1], "destroyed") == 0) destroyed();
   if (strcmp(argv[1], "failures") == 0) failures();
   if (strcmp(argv[1], "format") == 0 && argc > 6) format(argv + 2);
   return 0;

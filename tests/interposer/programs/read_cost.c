@@ -1,6 +1,6 @@
 /* read_cost WIDTH HEIGHT FRAMES: draws each frame twice; reads it with a bare glReadPixels in the
-   implementation's own format, then presents it, which the shim reads. Prints the nanoseconds of the bare read, a
-   line per frame. Rendering has ended before either. */
+   implementation's own format, then presents it, which the shim reads. Prints the nanoseconds of the bare
+   read, a line per frame. Rendering has ended before either. */
 #include <stdio.h>
 #include <time.h>
 
