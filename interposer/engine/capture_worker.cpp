@@ -75,6 +75,7 @@ void CaptureWorker::run() {
     if (alive() && writer_.is_open()) {
       writer_.finish("finished", "");
       live_.close();
+      live_picture_.close();
     }
   } catch (const std::exception& error) {
     give_up(error.what());
@@ -107,7 +108,10 @@ void CaptureWorker::process(const CapturedFrame& frame) {
   statistics_.surface = frame.surface;
   statistics_.time_ns = frame.time_ns;
   statistics_.readback_ns = frame.readback_ns;
-  found->second.engine.note_block_bits(pictures_.bits_for(frame.frame));
+  BlockBits* bits = pictures_.bits_for(frame.frame);
+  const bool watched = live_.picture_wanted();
+  if (watched && bits == nullptr) bits = &watched_bits_;
+  found->second.engine.note_block_bits(bits);
   found->second.engine.process(frame.view, statistics_);
   if (!pictures_.write(statistics_, frame.view)) return give_up(pictures_.error());
   dump_frame(frame, log_);
@@ -116,6 +120,9 @@ void CaptureWorker::process(const CapturedFrame& frame) {
   ++counts_.captured;
   // Without the frame in hand: it is pending until the queue has it back.
   live_.update(statistics_, writer_.totals(), counts_now(), queue_.pending() - 1, kQueueDepth);
+  if (watched)
+    live_.set_picture_error(
+        live_picture_.write(writer_.path(), live_.state(), frame.view, *bits, options_.model.burst_bits));
 }
 
 bool CaptureWorker::append_present(const CapturedFrame& frame) {
@@ -154,6 +161,7 @@ void CaptureWorker::give_up(const std::string& reason) {
     publish_counts();
     writer_.finish("failed", reason);
     live_.close();
+    live_picture_.close();
   }
   alive_ = false;
   while (!queue_.close()) {

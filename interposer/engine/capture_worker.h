@@ -12,6 +12,7 @@
 #include "interposer/run/append_file.h"
 #include "tilepress/frame_pictures.h"
 #include "tilepress/live_page.h"
+#include "tilepress/live_picture.h"
 #include "tilepress/run_directory.h"
 #include "tilepress/surface_engine.h"
 
@@ -61,6 +62,8 @@ class CaptureWorker {
   AppendFile presents_;  ///< presents.csv
   FramePictures pictures_;
   LiveWriter live_;
+  LivePictureWriter live_picture_;
+  BlockBits watched_bits_;                ///< for live_picture_, when no heat map is due
   std::map<uint32_t, Surface> surfaces_;  ///< by window
   FrameStatistics statistics_;
   std::thread thread_;

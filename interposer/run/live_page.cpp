@@ -1,25 +1,44 @@
 // Live page: a sequence lock over one mapped struct.
 #include "tilepress/live_page.h"
 
-#include <fcntl.h>
 #include <sched.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
+
+#include "run/sequenced_words.h"
+#include "run/shared_file.h"
 
 namespace tilepress {
 namespace {
 
-constexpr char kMagic[8] = {'T', 'P', 'L', 'I', 'V', 'E', 0, 0};
+constexpr uint64_t kMagic = 0x4556'494C'5054;  // "TPLIVE\0\0", little-endian
 constexpr int kReadAttempts = 100;
+constexpr uint64_t kRequestHoldsNs = 2'000'000'000, kPicturePeriodNs = 100'000'000;
+constexpr size_t kStateWords = sizeof(LiveState) / sizeof(uint64_t);
 
 void copy_name(char (&out)[kLiveNameBytes], const std::string& name) {
   std::memset(out, 0, sizeof out);
   std::memcpy(out, name.data(), std::min(name.size(), sizeof out - 1));
+}
+
+uint64_t monotonic_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<uint64_t>(now.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(now.tv_nsec);
+}
+
+uint64_t* words_of(LiveState& state) {
+  return reinterpret_cast<uint64_t*>(&state);
+}
+
+void publish(LivePage& page, LiveState& state) {
+  const SequencedWrite write(page.sequence);
+  store_words(words_of(page.state), words_of(state), kStateWords);
 }
 
 }  // namespace
@@ -30,38 +49,22 @@ LiveWriter::~LiveWriter() {
 
 void LiveWriter::open(const std::string& run_path, const RunInfo& info, const RunOptions& options) {
   path_ = run_path + "/" + kLiveFile;
-  const int file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (file < 0) return;
-  // posix_fallocate, not ftruncate: on a full disk a hole would end the program with SIGBUS at the first
-  // store.
-  void* memory = posix_fallocate(file, 0, sizeof(LivePage)) == 0
-                     ? mmap(nullptr, sizeof(LivePage), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0)
-                     : MAP_FAILED;
-  ::close(file);
-  if (memory == MAP_FAILED) {
-    unlink(path_.c_str());
-    return;
-  }
-  page_ = static_cast<LivePage*>(memory);
-  LiveState& state = page_->state;
-  copy_name(state.program, info.program);
-  state.pid = info.pid;
-  state.scheme_count = std::min(options.schemes.size(), kLiveSchemes);
-  for (size_t i = 0; i < state.scheme_count; ++i) copy_name(state.schemes[i].name, options.schemes[i].text);
+  page_ = static_cast<LivePage*>(create_shared_file(path_, sizeof(LivePage)));
+  if (page_ == nullptr) return;
+  copy_name(state_.program, info.program);
+  state_.pid = info.pid;
+  state_.scheme_count = std::min(options.schemes.size(), kLiveSchemes);
+  for (size_t i = 0; i < state_.scheme_count; ++i) copy_name(state_.schemes[i].name, options.schemes[i].text);
+  publish(*page_, state_);
   page_->version = kLiveVersion;
   page_->size = sizeof(LivePage);
-  std::atomic_thread_fence(std::memory_order_release);
-  std::memcpy(page_->magic, kMagic, sizeof kMagic);
+  store_words(&page_->magic, &kMagic, 1);
 }
 
 void LiveWriter::update(const FrameStatistics& frame, const std::vector<SchemeStatistics>& totals,
                         const RunCounts& counts, uint64_t queued, uint64_t queue_depth) {
   if (page_ == nullptr) return;
-  readback_sum_ns_ += frame.readback_ns;
-  encode_sum_ns_ += frame.encode_ns;
-  page_->sequence.fetch_add(1, std::memory_order_acq_rel);
-  std::atomic_thread_fence(std::memory_order_release);
-  LiveState& state = page_->state;
+  LiveState& state = state_;
   state.seen = counts.seen;
   state.captured = counts.captured;
   state.dropped = counts.dropped;
@@ -77,18 +80,38 @@ void LiveWriter::update(const FrameStatistics& frame, const std::vector<SchemeSt
   state.time_ns = frame.time_ns;
   state.readback_ns = frame.readback_ns;
   state.encode_ns = frame.encode_ns;
-  state.readback_sum_ns = readback_sum_ns_;
-  state.encode_sum_ns = encode_sum_ns_;
+  state.readback_sum_ns += frame.readback_ns;
+  state.encode_sum_ns += frame.encode_ns;
   state.fvc_coverage = frame.metrics.fvc_coverage;
   state.pixel_change = frame.metrics.pixel_change;
   for (size_t i = 0; i < state.scheme_count && i < frame.schemes.size() && i < totals.size(); ++i) {
     LiveScheme& scheme = state.schemes[i];
     scheme.raw_bits = totals[i].raw_bits;
     scheme.moved_bits = totals[i].moved_bits();
+    scheme.extra_bits = totals[i].extra_bits;
     scheme.frame_raw_bits = frame.schemes[i].raw_bits;
     scheme.frame_moved_bits = frame.schemes[i].moved_bits();
+    scheme.frame_extra_bits = frame.schemes[i].extra_bits;
   }
-  page_->sequence.fetch_add(1, std::memory_order_release);
+  publish(*page_, state);
+}
+
+bool LiveWriter::picture_wanted() {
+  if (page_ == nullptr) return false;
+  const uint64_t requests = page_->picture_requests.load(std::memory_order_relaxed);
+  if (requests == 0) return false;  // nobody ever asked
+  const uint64_t now = monotonic_ns();
+  if (requests != requests_seen_) {
+    requests_seen_ = requests;
+    request_seen_ns_ = now;
+  }
+  if (now - request_seen_ns_ > kRequestHoldsNs || now - picture_ns_ < kPicturePeriodNs) return false;
+  picture_ns_ = now;
+  return true;
+}
+
+void LiveWriter::set_picture_error(int error) {
+  if (page_ != nullptr) page_->picture_error.store(static_cast<uint64_t>(error), std::memory_order_relaxed);
 }
 
 void LiveWriter::close() {
@@ -99,45 +122,41 @@ void LiveWriter::close() {
 }
 
 LiveReader::~LiveReader() {
-  if (page_ != nullptr) munmap(const_cast<LivePage*>(page_), sizeof(LivePage));
+  if (page_ != nullptr) munmap(page_, bytes_);
 }
 
-bool LiveReader::open(const std::string& run_path, std::string& error) {
+bool LiveReader::open(const std::string& run_path, std::string& error, bool asks_for_pictures) {
   const std::string path = run_path + "/" + kLiveFile;
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) {
-    error = path + ": " + std::strerror(errno);
+  page_ = static_cast<LivePage*>(map_shared_file(path, sizeof(LivePage), asks_for_pictures, bytes_));
+  if (page_ == nullptr) {
+    error = path + ": " + (errno != 0 ? std::strerror(errno) : "not a live page of this version");
     return false;
   }
-  struct stat status {};
-  const bool whole = fstat(file, &status) == 0 && status.st_size >= static_cast<off_t>(sizeof(LivePage));
-  void* memory = whole ? mmap(nullptr, sizeof(LivePage), PROT_READ, MAP_SHARED, file, 0) : MAP_FAILED;
-  ::close(file);
-  if (memory == MAP_FAILED) {
-    error = path + ": not a live page of this version";
-    return false;
-  }
-  page_ = static_cast<const LivePage*>(memory);
-  if (std::memcmp(page_->magic, kMagic, sizeof kMagic) == 0 && page_->version == kLiveVersion &&
-      page_->size == sizeof(LivePage))
-    return true;
+  uint64_t magic = 0;
+  load_words(&page_->magic, &magic, 1);
+  if (magic == kMagic && page_->version == kLiveVersion && page_->size == sizeof(LivePage)) return true;
   error = path + ": not a live page of this version";
-  munmap(memory, sizeof(LivePage));
+  munmap(page_, bytes_);
   page_ = nullptr;
   return false;
 }
 
 bool LiveReader::read(LiveState& out) const {
   for (int attempt = 0; page_ != nullptr && attempt < kReadAttempts; ++attempt) {
-    const uint64_t before = page_->sequence.load(std::memory_order_acquire);
-    if (before % 2 == 0) {
-      std::memcpy(&out, &page_->state, sizeof out);
-      std::atomic_thread_fence(std::memory_order_acquire);
-      if (page_->sequence.load(std::memory_order_relaxed) == before) return out.scheme_count <= kLiveSchemes;
-    }
+    const SequencedRead read(page_->sequence);
+    load_words(words_of(page_->state), words_of(out), kStateWords);
+    if (read.whole()) return out.scheme_count <= kLiveSchemes;
     sched_yield();
   }
   return false;
+}
+
+void LiveReader::ask_for_pictures() {
+  page_->picture_requests.fetch_add(1, std::memory_order_relaxed);
+}
+
+int LiveReader::picture_error() const {
+  return page_ == nullptr ? 0 : static_cast<int>(page_->picture_error.load(std::memory_order_relaxed));
 }
 
 }  // namespace tilepress

@@ -14,6 +14,7 @@
 #include "run/run_json.h"
 #include "tilepress/csv_reader.h"
 #include "tilepress/live_page.h"
+#include "tilepress/live_picture.h"
 
 namespace tilepress {
 namespace {
@@ -228,7 +229,8 @@ bool close_run(const std::string& path, const RunEnd& end, RunRecord& record, st
   if (!read_tables(path, record, tables, error)) return false;
   if (!cut_file(path + "/frames.csv", tables.frames_text, tables.frames_end, error)) return false;
   if (!cut_file(path + "/schemes.csv", tables.schemes_text, tables.schemes_end, error)) return false;
-  unlink((path + "/" + kLiveFile).c_str());  // of a program that was killed
+  for (const char* file : {kLiveFile, kLivePictureFile})
+    unlink((path + "/" + file).c_str());  // of a program that was killed
   if (end.overrules || record.state == "running" || (end.signal && record.state != "failed")) {
     record.state = end.state;
     record.reason = end.reason;

@@ -12,7 +12,7 @@
 
 namespace tilepress {
 
-constexpr uint32_t kLiveVersion = 1;
+constexpr uint32_t kLiveVersion = 2;
 constexpr size_t kLiveSchemes = 16;        ///< schemes past these are not shown
 constexpr size_t kLiveNameBytes = 64;      ///< with the closing zero
 constexpr const char* kLiveFile = "live";  ///< in the run directory, from the first frame until the run ends
@@ -22,6 +22,7 @@ struct LiveScheme {
   char name[kLiveNameBytes];
   uint64_t raw_bits, moved_bits;              ///< over all measured frames
   uint64_t frame_raw_bits, frame_moved_bits;  ///< of the last frame
+  uint64_t extra_bits, frame_extra_bits;      ///< further traffic, which moved_bits are without
 };
 
 /// A snapshot of a capture. Plain numbers only: the file may be read by another build of another version.
@@ -40,15 +41,17 @@ struct LiveState {
   LiveScheme schemes[kLiveSchemes];
 };
 
-/// The file's contents. A writer makes `sequence` odd while it changes `state`.
+/// The file's contents. The capture makes `sequence` odd while it changes `state`.
 struct LivePage {
-  char magic[8];  ///< "TPLIVE\0\0"
+  uint64_t magic;  ///< bytes "TPLIVE\0\0"
   uint32_t version;
   uint32_t size;  ///< sizeof(LivePage)
   std::atomic<uint64_t> sequence;
+  std::atomic<uint64_t> picture_requests;  ///< raised by who wants pictures, again and again (LiveReader)
+  std::atomic<uint64_t> picture_error;     ///< errno of the last picture that could not be given, or 0
   LiveState state;
 };
-static_assert(std::atomic<uint64_t>::is_always_lock_free);
+static_assert(std::atomic<uint64_t>::is_always_lock_free && sizeof(LiveState) % sizeof(uint64_t) == 0);
 
 /// The capture's side. A page that cannot be made is no error: the run goes on without.
 class LiveWriter {
@@ -61,16 +64,22 @@ class LiveWriter {
   /// After each frame. `totals`: the run's sums, in the order of the schemes.
   void update(const FrameStatistics& frame, const std::vector<SchemeStatistics>& totals,
               const RunCounts& counts, uint64_t queued, uint64_t queue_depth);
+  const LiveState& state() const { return state_; }
+  /// Whether somebody asked for pictures since the last frame or within the two seconds before: a watcher
+  /// that was killed asks no more, and nothing of it has to be undone. At most ten times a second.
+  bool picture_wanted();
+  void set_picture_error(int error);
   /// Ends the page: the file goes.
   void close();
 
  private:
   LivePage* page_ = nullptr;
   std::string path_;
-  uint64_t readback_sum_ns_ = 0, encode_sum_ns_ = 0;
+  LiveState state_{};
+  uint64_t requests_seen_ = 0, request_seen_ns_ = 0, picture_ns_ = 0;
 };
 
-/// The watcher's side: opened read-only, so that it cannot disturb the capture.
+/// The watcher's side: opened read-only, so that it cannot disturb the capture, unless it wants pictures.
 class LiveReader {
  public:
   LiveReader() = default;
@@ -78,12 +87,17 @@ class LiveReader {
   LiveReader& operator=(const LiveReader&) = delete;
   ~LiveReader();
   /// False and one line in `error` if the run has no page of this version.
-  bool open(const std::string& run_path, std::string& error);
+  bool open(const std::string& run_path, std::string& error, bool asks_for_pictures = false);
   /// A consistent copy. False if none could be had (the writer died while writing).
   bool read(LiveState& out) const;
+  /// Asks for pictures (live_picture.h) for the next two seconds. Precondition: opened so.
+  void ask_for_pictures();
+  /// errno of the last picture that the capture could not give, or 0.
+  int picture_error() const;
 
  private:
-  const LivePage* page_ = nullptr;
+  LivePage* page_ = nullptr;
+  size_t bytes_ = 0;
 };
 
 }  // namespace tilepress

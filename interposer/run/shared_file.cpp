@@ -1,0 +1,47 @@
+// Shared file: plain files in the run directory, so that who may read the run may watch it.
+#include "run/shared_file.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace tilepress {
+
+void* create_shared_file(const std::string& path, size_t bytes) {
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (file < 0) return nullptr;
+  // posix_fallocate, not ftruncate: on a full disk a hole would end the program with SIGBUS at the first
+  // store.
+  int error = posix_fallocate(file, 0, static_cast<off_t>(bytes));
+  void* memory = MAP_FAILED;
+  if (error == 0) {
+    memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    if (memory == MAP_FAILED) error = errno;
+  }
+  close(file);
+  if (memory != MAP_FAILED) return memory;
+  unlink(path.c_str());
+  errno = error;
+  return nullptr;
+}
+
+void* map_shared_file(const std::string& path, size_t least_bytes, bool writable, size_t& bytes) {
+  const int file = open(path.c_str(), (writable ? O_RDWR : O_RDONLY) | O_CLOEXEC);
+  if (file < 0) return nullptr;
+  struct stat status {};
+  void* memory = MAP_FAILED;
+  errno = 0;
+  if (fstat(file, &status) == 0 && status.st_size >= static_cast<off_t>(least_bytes)) {
+    bytes = static_cast<size_t>(status.st_size);
+    memory = mmap(nullptr, bytes, writable ? PROT_READ | PROT_WRITE : PROT_READ, MAP_SHARED, file, 0);
+  }
+  const int error = errno;
+  close(file);
+  errno = error;
+  return memory == MAP_FAILED ? nullptr : memory;
+}
+
+}  // namespace tilepress

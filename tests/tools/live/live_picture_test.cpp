@@ -1,0 +1,132 @@
+// Tests of the live picture: asked for, given whole, gone with the run.
+#include "tilepress/live_picture.h"
+
+#include <cerrno>
+#include <fstream>
+
+#include "live_samples.h"
+
+namespace tilepress {
+namespace {
+
+using LivePictureTest = LiveFolderTest;
+
+int write_sample(LivePictureWriter& writer, const std::string& folder, uint32_t n, uint32_t width = 21,
+                 uint32_t height = 11) {
+  const SamplePicture picture(n, width, height);
+  return writer.write(folder, sample_state(n), picture.view, picture.bits, 128);
+}
+
+TEST_F(LivePictureTest, NobodyGetsPicturesWhoDoesNotAsk) {
+  LiveWriter writer;
+  writer.open(folder_, info_, options_);
+  LiveReader top, view;
+  ASSERT_TRUE(top.open(folder_, error_)) << error_;
+  EXPECT_FALSE(writer.picture_wanted());
+  ASSERT_TRUE(view.open(folder_, error_, true)) << error_;
+  EXPECT_FALSE(writer.picture_wanted());
+  view.ask_for_pictures();
+  EXPECT_TRUE(writer.picture_wanted());
+}
+
+TEST_F(LivePictureTest, AtMostOnePictureIn100Milliseconds) {
+  LiveWriter writer;
+  writer.open(folder_, info_, options_);
+  LiveReader view;
+  ASSERT_TRUE(view.open(folder_, error_, true)) << error_;
+  view.ask_for_pictures();
+  const auto begin = std::chrono::steady_clock::now();
+  uint64_t given = 0;
+  for (int i = 0; i < 20000; ++i) given += writer.picture_wanted();
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  EXPECT_GE(given, 1u);
+  EXPECT_LE(static_cast<double>(given), 1 + elapsed.count() / 0.1);
+}
+
+TEST_F(LivePictureTest, APictureComesWholeAndOnce) {
+  LivePictureWriter writer;
+  LivePictureReader reader;
+  LivePicture picture;
+  EXPECT_FALSE(reader.read(folder_, picture));
+  ASSERT_EQ(write_sample(writer, folder_, 7), 0);
+  ASSERT_TRUE(reader.read(folder_, picture));
+  EXPECT_EQ(picture.head.width, 21u);
+  EXPECT_EQ(picture.head.height, 11u);
+  EXPECT_EQ(picture.head.blocks_x, 3u);
+  EXPECT_EQ(picture.head.blocks_y, 2u);
+  EXPECT_EQ(picture.head.raw_bits, 2048u);
+  EXPECT_EQ(picture.head.burst_bits, 128u);
+  EXPECT_TRUE(is_sample(picture, 7));
+  EXPECT_FALSE(reader.read(folder_, picture));
+  ASSERT_EQ(write_sample(writer, folder_, 8), 0);
+  ASSERT_EQ(write_sample(writer, folder_, 9), 0);
+  ASSERT_TRUE(reader.read(folder_, picture));
+  EXPECT_TRUE(is_sample(picture, 9));
+}
+
+TEST_F(LivePictureTest, ALargerSurfaceMakesALargerFileThatTheReaderFinds) {
+  LivePictureWriter writer;
+  LivePictureReader reader;
+  LivePicture picture;
+  ASSERT_EQ(write_sample(writer, folder_, 1), 0);
+  ASSERT_TRUE(reader.read(folder_, picture));
+  ASSERT_EQ(write_sample(writer, folder_, 2, 200, 100), 0);
+  ASSERT_TRUE(reader.read(folder_, picture));
+  EXPECT_TRUE(is_sample(picture, 2));
+  ASSERT_EQ(write_sample(writer, folder_, 3, 8, 8), 0);
+  ASSERT_TRUE(reader.read(folder_, picture));
+  EXPECT_TRUE(is_sample(picture, 3));
+}
+
+TEST_F(LivePictureTest, TheFileGoesWithTheRunAndTheLastPictureStaysReadable) {
+  LivePictureWriter writer;
+  LivePictureReader reader;
+  LivePicture picture;
+  ASSERT_EQ(write_sample(writer, folder_, 4), 0);
+  EXPECT_TRUE(has(kLivePictureFile));
+  ASSERT_TRUE(reader.read(folder_, picture));
+  writer.close();
+  EXPECT_FALSE(has(kLivePictureFile));
+  EXPECT_FALSE(reader.read(folder_, picture));
+  EXPECT_TRUE(is_sample(picture, 4));
+}
+
+TEST_F(LivePictureTest, WhatCannotBeMadeIsToldToTheWatcher) {
+  LivePictureWriter pictures;
+  EXPECT_EQ(write_sample(pictures, folder_ + "/missing", 1), ENOENT);
+  LiveWriter writer;
+  writer.open(folder_, info_, options_);
+  LiveReader view;
+  ASSERT_TRUE(view.open(folder_, error_, true)) << error_;
+  EXPECT_EQ(view.picture_error(), 0);
+  writer.set_picture_error(ENOSPC);
+  EXPECT_EQ(view.picture_error(), ENOSPC);
+}
+
+TEST_F(LivePictureTest, FilesOfOthersAreNotRead) {
+  LivePictureReader reader;
+  LivePicture picture;
+  const std::string path = folder_ + "/" + kLivePictureFile;
+  std::ofstream(path) << "TPPICT";
+  EXPECT_FALSE(reader.read(folder_, picture));
+  std::ofstream(path) << std::string(100'000, '\xFF');
+  EXPECT_FALSE(reader.read(folder_, picture));
+  std::filesystem::remove(path);
+
+  // A slot whose size was changed behind the capture's back, so that it would reach past its end.
+  LivePictureWriter writer;
+  ASSERT_EQ(write_sample(writer, folder_, 5), 0);
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  uint64_t slot_bytes = 0;
+  file.seekg(16).read(reinterpret_cast<char*>(&slot_bytes), 8);
+  // The first picture is number 1, in slot 1; width, height and the numbers of blocks follow the number.
+  const auto width_at =
+      static_cast<std::streamoff>(kLiveSlotsOffset + slot_bytes + 8 + offsetof(LivePictureHead, width));
+  const uint64_t wide[] = {60000, 60000, 1, 7500, 7500};
+  file.seekp(width_at).write(reinterpret_cast<const char*>(wide), sizeof wide);
+  file.close();
+  EXPECT_FALSE(reader.read(folder_, picture));
+}
+
+}  // namespace
+}  // namespace tilepress
