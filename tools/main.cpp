@@ -27,6 +27,7 @@ constexpr Verb kVerbs[] = {
     {"compose", "account the reads of several packed surfaces shown at once", verb_compose},
     {"cost", "storage, area, speed and energy of the structures", verb_cost},
     {"top", "watch running captures", verb_top},
+    {"view", "show the last frame of a running capture in a window", verb_view},
     {"export", "a run as gem5 statistics or JSON lines", verb_export},
     {"schemes", "list the schemes and their options", verb_schemes},
     {"doctor", "tell what this machine offers and what is missing", verb_doctor},

@@ -26,5 +26,6 @@ int verb_run(int argc, char** argv);
 int verb_schemes(int argc, char** argv);
 int verb_top(int argc, char** argv);
 int verb_unpack(int argc, char** argv);
+int verb_view(int argc, char** argv);
 
 }  // namespace tilepress

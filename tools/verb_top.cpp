@@ -9,7 +9,6 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -17,11 +16,11 @@
 
 #include "command_line.h"
 #include "live/capture_screen.h"
+#include "live/running_captures.h"
 #include "verb.h"
 
 namespace tilepress {
 namespace {
-namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 std::atomic<bool> interrupted{false};
@@ -70,11 +69,10 @@ class CaptureList {
  public:
   explicit CaptureList(const std::vector<std::string>& folders) : folders_(folders) {}
   void refresh() {
-    for (const std::string& folder : folders_) look(folder, 0);
+    for (const std::string& path : find_running_captures(folders_)) add(path);
     for (auto& [path, watch] : watches_) {
       LiveState state{};
-      const bool alive = kill(static_cast<pid_t>(watch->capture.now.pid), 0) == 0 || errno == EPERM;
-      watch->capture.ended = !alive || !fs::exists(path + "/" + kLiveFile);
+      watch->capture.ended = !capture_runs(path, watch->capture.now.pid);
       if (!watch->reader.read(state)) continue;
       const auto now = Clock::now();
       watch->capture.before = watch->capture.now;
@@ -94,23 +92,14 @@ class CaptureList {
   bool empty() const { return watches_.empty(); }
 
  private:
-  void look(const fs::path& folder, int depth) {
-    constexpr int kMaxDepth = 4;
-    std::error_code code;
-    if (fs::exists(folder / kLiveFile, code)) {
-      const std::string path = folder.string();
-      if (watches_.count(path) > 0) return;
-      auto watch = std::make_unique<Watch>();
-      std::string error;
-      if (!watch->reader.open(path, error) || !watch->reader.read(watch->capture.now)) return;
-      watch->capture.path = path;
-      watch->read_at = Clock::now();
-      watches_[path] = std::move(watch);
-      return;
-    }
-    if (depth == kMaxDepth) return;
-    for (const auto& entry : fs::directory_iterator(folder, code))
-      if (entry.is_directory(code) && !entry.is_symlink(code)) look(entry.path(), depth + 1);
+  void add(const std::string& path) {
+    if (watches_.count(path) > 0) return;
+    auto watch = std::make_unique<Watch>();
+    std::string error;
+    if (!watch->reader.open(path, error) || !watch->reader.read(watch->capture.now)) return;
+    watch->capture.path = path;
+    watch->read_at = Clock::now();
+    watches_[path] = std::move(watch);
   }
   std::vector<std::string> folders_;
   std::map<std::string, std::unique_ptr<Watch>> watches_;

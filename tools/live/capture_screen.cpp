@@ -30,15 +30,14 @@ double milliseconds(uint64_t sum_ns, uint64_t count) {
   return count > 0 ? static_cast<double>(sum_ns) / static_cast<double>(count) * 1e-6 : 0;
 }
 
-/// A name from shared memory: what is not printable becomes '?'.
-std::string name_text(const char (&name)[kLiveNameBytes]) {
+}  // namespace
+
+std::string printable_name(const char (&name)[kLiveNameBytes]) {
   std::string out;
   for (size_t i = 0; i < sizeof name && name[i] != 0; ++i)
     out += name[i] >= 0x20 && name[i] < 0x7F ? name[i] : '?';
   return out;
 }
-
-}  // namespace
 
 double frames_per_second(const WatchedCapture& capture) {
   if (capture.elapsed_s <= 0 || capture.now.captured < capture.before.captured) return NAN;
@@ -48,8 +47,9 @@ double frames_per_second(const WatchedCapture& capture) {
 std::vector<std::string> capture_lines(const WatchedCapture& capture, size_t columns) {
   const LiveState& now = capture.now;
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("{} ({})  {}x{}  frame {} of surface {}{}", name_text(now.program), now.pid,
-                              now.width, now.height, now.frame, now.surface, capture.ended ? "  ended" : ""));
+  lines.push_back(fmt::format("{} ({})  {}x{}  frame {} of surface {}{}", printable_name(now.program),
+                              now.pid, now.width, now.height, now.frame, now.surface,
+                              capture.ended ? "  ended" : ""));
   const double rate = frames_per_second(capture);
   lines.push_back(fmt::format("  {} frames/s  seen {}  captured {}  dropped {}  skipped {}  unsupported {}",
                               std::isnan(rate) ? "-" : fmt::format("{:.1f}", rate), now.seen, now.captured,
@@ -64,12 +64,12 @@ std::vector<std::string> capture_lines(const WatchedCapture& capture, size_t col
       milliseconds(now.encode_sum_ns - (fresh ? capture.before.encode_sum_ns : 0), count)));
   size_t width = 8;
   for (size_t i = 0; i < now.scheme_count; ++i)
-    width = std::max(width, name_text(now.schemes[i].name).size());
+    width = std::max(width, printable_name(now.schemes[i].name).size());
   lines.push_back(fmt::format("  {:<{}}  {:>6}  {:>6}", "scheme", width, "run", "frame"));
   for (size_t i = 0; i < now.scheme_count; ++i) {
     const LiveScheme& scheme = now.schemes[i];
     const double of_run = ratio(scheme.raw_bits, scheme.moved_bits);
-    lines.push_back(fmt::format("  {:<{}}  {}  {}  {}", name_text(scheme.name), width, rate_text(of_run),
+    lines.push_back(fmt::format("  {:<{}}  {}  {}  {}", printable_name(scheme.name), width, rate_text(of_run),
                                 rate_text(ratio(scheme.frame_raw_bits, scheme.frame_moved_bits)),
                                 bar_of(of_run)));
   }

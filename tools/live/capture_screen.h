@@ -21,6 +21,9 @@ struct WatchedCapture {
 /// what capturing costs, and a line per scheme with its rate over the run and of the last frame.
 std::vector<std::string> capture_lines(const WatchedCapture& capture, size_t columns);
 
+/// A name from shared memory, what is not printable as '?'.
+std::string printable_name(const char (&name)[kLiveNameBytes]);
+
 /// Frames per second captured between the snapshots; NaN if there is one only.
 double frames_per_second(const WatchedCapture& capture);
 

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,6 +11,7 @@
 #include <sstream>
 
 #include "images/image_library.h"
+#include "live/heat_colors.h"
 
 namespace tilepress {
 namespace {
@@ -20,27 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr uint32_t kShownSide = 240;
 constexpr uint32_t kMaxSamples = 1u << 26;
-
-/// Nine colours of the viridis map, evenly spaced: brightness alone tells the order.
-constexpr std::array<std::array<uint8_t, 3>, 9> kViridis = {{{68, 1, 84},
-                                                             {71, 44, 122},
-                                                             {59, 81, 139},
-                                                             {44, 113, 142},
-                                                             {33, 144, 141},
-                                                             {39, 173, 129},
-                                                             {92, 200, 99},
-                                                             {170, 220, 50},
-                                                             {253, 231, 37}}};
-
-std::array<uint8_t, 3> heat_color(double share) {
-  const double place = std::clamp(share, 0.0, 1.0) * (kViridis.size() - 1);
-  const size_t low = std::min<size_t>(static_cast<size_t>(place), kViridis.size() - 2);
-  const double part = place - static_cast<double>(low);
-  std::array<uint8_t, 3> out{};
-  for (size_t c = 0; c < 3; ++c)
-    out[c] = static_cast<uint8_t>(std::lround(kViridis[low][c] * (1 - part) + kViridis[low + 1][c] * part));
-  return out;
-}
 
 std::string base64(const std::vector<uint8_t>& bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

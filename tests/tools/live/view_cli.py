@@ -1,0 +1,245 @@
+#!/usr/bin/env python3
+"""tilepress view beside a running program: what it shows, its keys, and that its death changes nothing.
+
+view_cli.py TILEPRESS PICTURE_PROGRAM"""
+import os
+import re
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+from pathlib import Path
+
+TILEPRESS, PROGRAM = sys.argv[1:3]
+# The window's drivers leave memory behind; what is ours to free is looked at in the unit tests.
+QUIET = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
+faults = []
+
+
+def expect(condition, text):
+    if not condition:
+        faults.append(text)
+
+
+def wait_for(what, seconds=90):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        found = what()
+        if found:
+            return found
+        time.sleep(0.05)
+    return None
+
+
+class Display:
+    def __enter__(self):
+        reader, writer = os.pipe()
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "1400x1000x24", "-nolisten", "tcp"],
+                                       pass_fds=[writer], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(writer)
+        with os.fdopen(reader) as number:
+            self.environment = dict(QUIET, DISPLAY=":" + number.readline().strip())
+        return self
+
+    def __exit__(self, *_):
+        self.server.terminate()
+        self.server.wait()
+
+    def window_names(self, pattern):
+        found = subprocess.run(["xdotool", "search", "--name", pattern, "getwindowname", "%@"], env=self.environment,
+                               capture_output=True, text=True, timeout=60)
+        return found.stdout.splitlines()
+
+    def press(self, *keys):
+        """Keys go to the window under the pointer: there is no window manager."""
+        subprocess.run(["xdotool", "mousemove", "300", "300", "key", "--delay", "30", *keys], env=self.environment, check=True, timeout=60)
+
+
+def read_png(path):
+    """Width, height and rows of 8-bit RGB or RGBA samples."""
+    data = path.read_bytes()
+    width, height, depth, kind = struct.unpack(">IIBB", data[16:26])
+    assert depth == 8 and kind in (2, 6), (depth, kind)
+    packed, at = b"", 8
+    while at < len(data):
+        length, name = struct.unpack(">I4s", data[at:at + 8])
+        if name == b"IDAT":
+            packed += data[at + 8:at + 8 + length]
+        at += 12 + length
+    raw, step = zlib.decompress(packed), 3 if kind == 2 else 4
+    pitch, rows = width * step, []
+    before = bytearray(pitch)
+    for y in range(height):
+        method, line = raw[y * (pitch + 1)], bytearray(raw[y * (pitch + 1) + 1:(y + 1) * (pitch + 1)])
+        for x in range(pitch):
+            a = line[x - step] if x >= step else 0
+            b = before[x]
+            c = before[x - step] if x >= step else 0
+            if method == 1:
+                line[x] = line[x] + a & 255
+            elif method == 2:
+                line[x] = line[x] + b & 255
+            elif method == 3:
+                line[x] = line[x] + (a + b >> 1) & 255
+            elif method == 4:
+                p, q, r = abs(b - c), abs(a - c), abs(a + b - 2 * c)
+                line[x] = line[x] + (a if p <= q and p <= r else b if q <= r else c) & 255
+        rows.append(bytes(line))
+        before = line
+    return width, height, rows
+
+
+def find_picture(rows, wanted):
+    """Where rows of RGB bytes lie in a screenshot's: (x, y), or None."""
+    for y in range(len(rows) - len(wanted) + 1):
+        at = rows[y].find(wanted[0])
+        while at >= 0:
+            if at % 3 == 0 and all(rows[y + i][at:at + len(row)] == row for i, row in enumerate(wanted)):
+                return at // 3, y
+            at = rows[y].find(wanted[0], at + 1)
+    return None
+
+
+def heat_color(share):
+    stops = [(68, 1, 84), (71, 44, 122), (59, 81, 139), (44, 113, 142), (33, 144, 141), (39, 173, 129), (92, 200, 99), (170, 220, 50),
+             (253, 231, 37)]
+    place = share * 8
+    low = min(int(place), 7)
+    return tuple(int(stops[low][c] * (1 - place + low) + stops[low + 1][c] * (place - low) + 0.5) for c in range(3))
+
+
+def read_pgm(path):
+    magic, _, sizes, most, data = path.read_bytes().split(b"\n", 4)
+    assert magic == b"P5" and int(most) == 2048
+    width, height = map(int, sizes.split())
+    return width, height, struct.unpack(f">{width * height}H", data)
+
+
+def view(display, *arguments):
+    return subprocess.run([TILEPRESS, "view", *map(str, arguments)], env=display.environment, capture_output=True, text=True, timeout=120)
+
+
+def screenshot(display, folder, name, *arguments):
+    """Takes one and returns it with the frame that it shows."""
+    done = view(display, folder / "out", "--screenshot", folder / name, *arguments)
+    found = re.fullmatch(rf"{re.escape(str(folder / name))}: frame (\d+) of surface 0\n", done.stderr)
+    expect(done.returncode == 0 and found, f"{name}: {done}")
+    return (int(found.group(1)), *read_png(folder / name)) if found else (None, 0, 0, [])
+
+
+def shows_frames_and_heat(display, folder):
+    """The window has the very pixels and bits that the run keeps of the same frame."""
+    program = subprocess.Popen([TILEPRESS, "run", "-q", "-o", folder / "out", "-s", "vdcp", "-s", "ras", "--heatmaps", "every:1",
+                                "--dump-frames", "every:1", "--", "glmark2-es2", "--size", "100x60", "-b", "build:duration=600"],
+                               env=display.environment, stdout=subprocess.DEVNULL)
+    run = None
+    try:
+        pages = wait_for(lambda: list((folder / "out").glob("*/live")))
+        expect(pages, "the capture has no live page")
+        run = pages[0].parent
+        expect(not (run / "live-picture").exists(), "pictures are written though nobody asked for them")
+        frame, width, height, rows = screenshot(display, folder, "frame.png", "--overlay", "off", "--zoom", "1")
+        expect((width, height) == (960, 640), f"the window is {width}x{height}")
+        expect((run / "live-picture").exists(), "there is no file of pictures")
+        raw = (run / f"frames/0-{frame:06}.rgba").read_bytes()
+        wanted = [b"".join(raw[(y * 100 + x) * 4:(y * 100 + x) * 4 + 3] for x in range(100)) for y in range(60)]
+        expect(find_picture(rows, wanted), f"frame {frame} is not in the window")
+
+        frame, width, height, rows = screenshot(display, folder, "heat.png", "--overlay", "only", "--zoom", "1", "-s", "ras")
+        blocks_x, blocks_y, bits = read_pgm(run / f"heatmaps/0-{frame:06}-ras.pgm")
+        expect((blocks_x, blocks_y) == (13, 8), f"{blocks_x}x{blocks_y} blocks")
+        wanted = [b"".join(bytes(heat_color(bits[y // 8 * blocks_x + x // 8] / 2048)) for x in range(100)) for y in range(60)]
+        expect(find_picture(rows, wanted), f"the heat map of frame {frame} is not in the window")
+    finally:
+        if run:
+            os.kill(int(run.name.rsplit("-", 1)[1]), signal.SIGKILL)
+        else:
+            program.kill()
+        program.wait(timeout=60)
+    expect(not list(run.glob("live*")), f"left behind by a killed program: {list(run.glob('live*'))}")
+
+
+def obeys_keys(display, folder):
+    program = subprocess.Popen([TILEPRESS, "run", "-q", "-o", folder / "out", "-s", "vdcp", "-s", "ras", "-s", "red", "--", "glmark2-es2",
+                                "--size", "96x64", "-b", "build:duration=600"], env=display.environment,
+                               stdout=subprocess.DEVNULL)
+    window = None
+    try:
+        pages = wait_for(lambda: list((folder / "out").glob("*/live")))
+        expect(pages, "the capture has no live page")
+        window = subprocess.Popen([TILEPRESS, "view", pages[0].parent], env=display.environment)
+
+        def title_ends(end):
+            return wait_for(lambda: any(name.endswith(end) for name in display.window_names("tilepress view: glmark2")), 60)
+        expect(title_ends(") vdcp"), "the window does not show the first scheme")
+        for keys, end in ((["Right"], ") ras"), (["3"], ") red"), (["Left", "Left"], ") vdcp"), (["space"], ") vdcp frozen"),
+                          (["2"], ") ras frozen"), (["space"], ") ras"), (["question", "Escape", "h", "plus", "f"], ") ras")):
+            display.press(*keys)
+            expect(title_ends(end), f"after {keys} the title is {display.window_names('tilepress view')}")
+        display.press("q")
+        expect(wait_for(lambda: window.poll() is not None) and window.returncode == 0, "q does not quit")
+        expect(program.poll() is None, "the program ended with its window")
+    finally:
+        if window and window.poll() is None:
+            window.kill()
+        for run in (folder / "out").glob("*/live"):
+            os.kill(int(run.parent.name.rsplit("-", 1)[1]), signal.SIGTERM)
+        program.wait(timeout=60)
+
+
+def killed_window_changes_nothing(display, folder):
+    """The same frames, once with a window that is attached, killed and attached again, once without."""
+    rows = {}
+    for name in ("watched", "alone"):
+        out = folder / name
+        program = subprocess.Popen([TILEPRESS, "run", "-q", "-o", out, "-s", "hdcp", "-s", "te", "--", PROGRAM, "glx", "900", "320", "240"],
+                                   env=display.environment, stdout=subprocess.DEVNULL)
+        if name == "watched":
+            pages = wait_for(lambda: list(out.glob("*/live")))
+            expect(pages, "the capture has no live page")
+            run = pages[0].parent
+            pid = int(run.name.rsplit("-", 1)[1])
+            os.kill(pid, signal.SIGSTOP)  # so that it is still there once the window is
+            window = subprocess.Popen([TILEPRESS, "view", out], env=display.environment)
+            expect(wait_for(lambda: display.window_names("tilepress view: glfw_picture .* waiting")), "the window does not attach")
+            os.kill(pid, signal.SIGCONT)
+            expect(wait_for(lambda: (run / "live-picture").exists() or program.poll() is not None), "no picture was written")
+            window.kill()
+            window.wait()
+        expect(program.wait(timeout=200) == 0, name + ": the program failed")
+        run, = out.glob("glfw_picture-*")
+        rows[name] = (run / "schemes.csv").read_bytes()
+        expect(not list(run.glob("live*")), f"left behind: {list(run.glob('live*'))}")
+    # GLFW presents once more, when it makes the window: a header and 901 frames of two schemes.
+    expect(rows["watched"].count(b"\n") == 1803, f"{rows['watched'].count(bytes([10]))} rows")
+    expect(rows["watched"] == rows["alone"], "the rows are not the same with a window")
+
+
+def fails_in_one_line(folder):
+    without = {name: value for name, value in QUIET.items() if name != "DISPLAY"}
+    for environment, line in ((without, "tilepress: view: no display: DISPLAY is not set\n"),
+                              (dict(QUIET, DISPLAY=":987654"), "tilepress: view: no display: cannot open :987654\n")):
+        done = subprocess.run([TILEPRESS, "view", folder], env=environment, capture_output=True, text=True, timeout=60)
+        expect((done.returncode, done.stdout, done.stderr) == (1, "", line), f"without a display: {done}")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name, Display() as display:
+        folder = Path(name)
+        fails_in_one_line(folder)
+        done = view(display, folder, "--screenshot", folder / "none.png", "--wait", "1")
+        expect((done.returncode, done.stderr) == (3, f"tilepress: view: {folder}: no running capture\n"), f"nothing runs: {done}")
+        for part in (shows_frames_and_heat, obeys_keys, killed_window_changes_nothing):
+            own = folder / part.__name__
+            own.mkdir()
+            part(display, own)
+    for fault in faults:
+        print("FAULT:", fault)
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()
