@@ -3,10 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
 #include <string>
 
+#include "interposer/engine/pixel_memory.h"
 #include "tilepress/surface.h"
 
 namespace tilepress {
@@ -29,14 +28,10 @@ struct CapturedFrame {
   SurfaceView view;  ///< lies in `pixels`
 
   /// Room for `bytes` bytes, contents undefined; null if there is no memory.
-  std::byte* reserve(size_t bytes);
+  std::byte* reserve(size_t bytes) { return pixels_.reserve(bytes); }
 
  private:
-  struct Free {
-    void operator()(std::byte* pixels) const { std::free(pixels); }
-  };
-  std::unique_ptr<std::byte, Free> pixels_;
-  size_t capacity_ = 0;
+  PixelMemory pixels_;
 };
 
 }  // namespace tilepress

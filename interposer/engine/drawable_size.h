@@ -1,4 +1,5 @@
-// Drawable size: the size and visual of an X window, asked so that no X error can reach the program's error handler.
+// Drawable size: the size and visual of an X window, asked so that no X error can reach the program's error
+// handler.
 #pragma once
 
 #include <X11/Xlib.h>
@@ -14,8 +15,8 @@ namespace tilepress {
 class DrawableSize {
  public:
   explicit DrawableSize(const LibrarySymbols& library);
-  /// False if `drawable` is neither a window nor a pixmap of the server, or XCB is not to be had. `visual` is a
-  /// window's, else 0. One round trip to the server.
+  /// False if `drawable` is neither a window nor a pixmap of the server, or XCB is not to be had. `visual` is
+  /// a window's, else 0. One round trip to the server.
   bool query(Display* display, XID drawable, unsigned& width, unsigned& height, VisualID& visual) const;
 
  private:

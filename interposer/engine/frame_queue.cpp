@@ -1,28 +1,12 @@
 // Frame queue: a free list and a ready list under one lock.
 #include "interposer/engine/frame_queue.h"
 
-#include <sys/mman.h>
-
 #include <chrono>
-#include <new>
 #include <utility>
 
 #include "interposer/engine/monotonic_clock.h"
 
 namespace tilepress {
-
-// Huge pages where they are to be had: the driver fills the memory on the program's thread.
-std::byte* CapturedFrame::reserve(size_t bytes) {
-  constexpr size_t kHugePage = size_t{2} << 20;
-  if (bytes > capacity_) {
-    const bool huge = bytes >= kHugePage / 2;
-    const size_t room = huge ? (bytes + kHugePage - 1) / kHugePage * kHugePage : bytes;
-    pixels_.reset(static_cast<std::byte*>(huge ? std::aligned_alloc(kHugePage, room) : std::malloc(room)));
-    capacity_ = pixels_ ? room : 0;
-    if (pixels_ && huge) madvise(pixels_.get(), room, MADV_HUGEPAGE);
-  }
-  return pixels_.get();
-}
 
 CapturedFrame* FrameQueue::acquire(bool wait) {
   std::unique_lock lock(mutex_);

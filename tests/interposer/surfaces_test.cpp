@@ -147,6 +147,16 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, GlxPresents, ::testing::Values(Road::kPreload
                                                                : "Both";
                          });
 
+TEST(Surfaces, LargeFramesAreNoMatterOfTheProgramsAllocator) {
+  ShimTest test;
+  const ShimRun run = run_scene(test, {"large"});
+  EXPECT_TRUE(run.process.exited_with(0));
+  ASSERT_EQ(run.runs.size(), 1u);
+  expect_surface(test, run.runs[0], 0, 3, 600, 600);
+  expect_surface(test, run.runs[0], 1, 3, 1100, 1100);
+  expect_surface(test, run.runs[0], 2, 3, 512, 512);
+}
+
 TEST(Surfaces, AContextDestroyedWhileCurrentBehavesAsWithoutTheShim) {
   ShimTest test;
   const ShimRun run = run_scene(test, {"destroyed"});

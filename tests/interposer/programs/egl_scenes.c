@@ -117,6 +117,25 @@ static void format(char** bits) {
   }
 }
 
+/* As Chromium's allocator: it ends the process when asked for a large alignment. */
+extern void* __libc_memalign(size_t alignment, size_t size);
+void* aligned_alloc(size_t alignment, size_t size) {
+  if (alignment > 1 << 19) abort();
+  return __libc_memalign(alignment, size);
+}
+
+/* Frames of a megabyte and more, for which large pages pay. */
+static void large(void) {
+  EGLConfig config = exact_config(display, kRgba8);
+  EGLContext context = make_context(display, config, 2);
+  const int sides[3] = {600, 1100, 512};
+  for (int i = 0; i < 3; ++i) {
+    EGLSurface surface = make_pbuffer(display, config, sides[i], sides[i]);
+    if (!eglMakeCurrent(display, surface, surface, context)) exit(9);
+    for (unsigned frame = 0; frame < 3; ++frame) draw_and_swap(surface, frame, sides[i], sides[i]);
+  }
+}
+
 int main(int argc, char** argv) {
   if (argc < 2) return 2;
   display = open_surfaceless();
@@ -125,6 +144,7 @@ int main(int argc, char** argv) {
   if (strcmp(argv[1], "recreate") == 0) recreate();
   if (strcmp(argv[1], "terminate") == 0) terminate();
   if (strcmp(argv[1], "destroyed") == 0) destroyed();
+  if (strcmp(argv[1], "large") == 0) large();
   if (strcmp(argv[1], "failures") == 0) failures();
   if (strcmp(argv[1], "format") == 0 && argc > 6) format(argv + 2);
   return 0;
