@@ -33,7 +33,7 @@ uint64_t copy_row(const std::byte* source, const SurfaceView& view, uint32_t* ta
 
 }  // namespace
 
-uint64_t PixelPlane::assign(const SurfaceView& view) {
+void PixelPlane::reshape(const SurfaceView& view) {
   assert(view.width >= 1 && view.width <= kMaxSurfaceSide && view.height >= 1 &&
          view.height <= kMaxSurfaceSide && traits(view.format).modelled);
   width_ = view.width;
@@ -42,15 +42,23 @@ uint64_t PixelPlane::assign(const SurfaceView& view) {
   stride_ = round_up_to_block(width_);
   padded_height_ = round_up_to_block(height_);
   words_.resize(size_t{stride_} * padded_height_);
+}
+
+uint64_t PixelPlane::assign_rows(const SurfaceView& view, uint32_t begin, uint32_t end) {
   uint64_t changed = 0;
-  for (uint32_t y = 0; y < height_; ++y) {
+  for (uint32_t y = begin; y < std::min(end, height_); ++y) {
     uint32_t* target = words_.data() + size_t{y} * stride_;
     changed += copy_row(view.row(y), view, target);
     std::fill(target + width_, target + stride_, target[width_ - 1]);
   }
-  for (uint32_t y = height_; y < padded_height_; ++y)
+  for (uint32_t y = height_; y < end; ++y)
     std::copy_n(row(height_ - 1), stride_, words_.data() + size_t{y} * stride_);
   return changed;
+}
+
+uint64_t PixelPlane::assign(const SurfaceView& view) {
+  reshape(view);
+  return assign_rows(view, 0, padded_height_);
 }
 
 void PixelPlane::load_block(uint32_t bx, uint32_t by, Block& out) const {

@@ -24,18 +24,14 @@ inline void write_raw_pixels(const uint32_t* pixels, uint32_t count, uint32_t pi
   }
 }
 
-inline void write_raw_sub_block(const Block& block, uint32_t sub, uint32_t pixel_bits, BitWriter& out) {
-  for (uint32_t i = 0; i < kSubBlockPixels; ++i) out.put(block.pixels[sub_block_pixel(sub, i)], pixel_bits);
-}
-
 inline void read_raw_sub_block(BitReader& in, uint32_t sub, uint32_t pixel_bits, Block& block) {
   for (uint32_t i = 0; i < kSubBlockPixels; ++i)
     block.pixels[sub_block_pixel(sub, i)] = static_cast<uint32_t>(in.get(pixel_bits));
 }
 
-/// A raw block is its sixteen raw sub-blocks in order.
-inline void write_raw_block(const Block& block, uint32_t pixel_bits, BitWriter& out) {
-  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) write_raw_sub_block(block, sub, pixel_bits, out);
+/// A raw block is its sixteen raw sub-blocks in order: its pixels in traversal order.
+inline void write_raw_block(const uint32_t* pixels, uint32_t pixel_bits, BitWriter& out) {
+  write_raw_pixels(pixels, kBlockPixels, pixel_bits, out);
 }
 
 inline void read_raw_block(BitReader& in, uint32_t pixel_bits, Block& block) {

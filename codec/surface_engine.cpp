@@ -50,6 +50,7 @@ struct Lane {
   Collector* collector = nullptr;
   uint32_t csb_bits = 0;
   SurfaceStore store;
+  SchemeStatistics last;  ///< what the block measured last added
 };
 
 }  // namespace
@@ -66,7 +67,23 @@ struct SurfaceEngine::State {
   uint64_t ordinal = 0;
   bool has_before = false;  ///< now held a frame before this one
   bool opened = false;      ///< lanes and collectors are there
-  bool needs_ras = false, needs_ras_ycocg = false;
+  bool needs_ras = false, needs_ras_ycocg = false, needs_raster = false, needs_raster_to_encode = false;
+  bool needs_whole_frame = false;
+  bool can_repeat = true;  ///< a block of the colour of the one before counts like that one
+  /// The block visited last, if it was of one colour, and how often it came again.
+  struct {
+    bool solid = false;
+    uint32_t color = 0;
+    uint64_t repeats = 0;
+  } last;
+  /// Pixels of one colour in a row that the fast collectors have not seen yet.
+  struct {
+    uint32_t color = 0, count = 0;
+  } run;
+  FewColors few;  ///< of the block being visited
+  bool is_few = false;
+  uint32_t few_score = 0;                 ///< how well it went lately to look for few colours
+  uint32_t until_few = 0;                 ///< blocks not to look at, when it went badly
   std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere
   BlockBits* block_bits = nullptr;
   uint32_t burst_round = 0, burst_shift = 0;  ///< burst_bits is a power of two
@@ -75,7 +92,13 @@ struct SurfaceEngine::State {
   Collector& collector_for(const FvcConfig& config, const FormatTraits& format);
   void begin_frame(FrameStatistics& out);
   void visit_block(uint32_t bx, uint32_t by, const FormatTraits& format, FrameStatistics& out);
+  bool repeat_block(uint32_t bx, uint32_t by, const uint32_t* top_left);
+  void settle_repeats(FrameStatistics& out);
+  uint32_t pixels_inside(uint32_t bx, uint32_t by) const;
+  void collect_solid(uint32_t bx, uint32_t by, uint32_t color);
   void collect(const BlockContext& block);
+  void settle_run();
+  bool split_few(const uint32_t* pixels);
   uint32_t ras_bits(const BlockContext& block, const uint32_t* top_left, const FormatTraits& format,
                     bool ycocg) const {
     return block.uniform ? ras_uniform_bits(format, ycocg)
@@ -108,6 +131,10 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
     }
     needs_ras |= lane.needs.ras;
     needs_ras_ycocg |= lane.needs.ras_ycocg;
+    needs_raster |= lane.needs.raster || options.verify;
+    needs_raster_to_encode |= lane.needs.raster_to_encode;
+    needs_whole_frame |= lane.needs.whole_frame;
+    can_repeat &= !lane.needs.place && !options.verify;
     lanes.push_back(std::move(lane));
   }
 }
@@ -119,6 +146,7 @@ void SurfaceEngine::State::begin_frame(FrameStatistics& out) {
     collector.fvc.reset();
     if (collector.fast) collector.fast->reset();
   }
+  last.solid = false;
   out.schemes.assign(lanes.size(), SchemeStatistics{});
   if (block_bits != nullptr) {
     block_bits->blocks_x = now.blocks_x();
@@ -142,13 +170,36 @@ void SurfaceEngine::State::begin_frame(FrameStatistics& out) {
   }
 }
 
+/// Pixels of a block that lie inside the surface: padding never enters the FVC.
+uint32_t SurfaceEngine::State::pixels_inside(uint32_t bx, uint32_t by) const {
+  return std::min(kBlockSide, now.width() - bx * kBlockSide) *
+         std::min(kBlockSide, now.height() - by * kBlockSide);
+}
+
+void SurfaceEngine::State::settle_run() {
+  if (run.count == 0) return;
+  for (Collector& collector : collectors)
+    if (collector.collecting && collector.fast) collector.fast->see_run(run.color, run.count);
+  run.count = 0;
+}
+
+void SurfaceEngine::State::collect_solid(uint32_t bx, uint32_t by, uint32_t color) {
+  const uint32_t count = pixels_inside(bx, by);
+  if (run.color != color) settle_run();
+  run.color = color;
+  run.count += count;
+  for (Collector& collector : collectors)
+    if (collector.collecting && !collector.fast) collector.fvc.see_run(color, count);
+}
+
 void SurfaceEngine::State::collect(const BlockContext& block) {
-  const uint32_t width = std::min(kBlockSide, now.width() - block.bx * kBlockSide);
-  const uint32_t height = std::min(kBlockSide, now.height() - block.by * kBlockSide);
-  uint32_t count = kBlockPixels;
+  if (block.uniform) return collect_solid(block.bx, block.by, block.pixels[0]);
+  settle_run();
+  uint32_t count = pixels_inside(block.bx, block.by);
   const uint32_t* pixels = block.pixels;
   uint32_t inside[kBlockPixels];
-  if (width < kBlockSide || height < kBlockSide) {  // padding never enters the FVC
+  if (count < kBlockPixels) {
+    const uint32_t width = now.width() - block.bx * kBlockSide, height = now.height() - block.by * kBlockSide;
     count = 0;
     for (uint32_t i = 0; i < kBlockPixels; ++i)
       if (kTraversal[i] % 8 < width && kTraversal[i] / 8 < height) inside[count++] = block.pixels[i];
@@ -158,26 +209,65 @@ void SurfaceEngine::State::collect(const BlockContext& block) {
     if (!collector.collecting) continue;
     if (!collector.fast)
       collector.fvc.see_all(pixels, count);
-    else if (block.uniform)
-      collector.fast->see_run(pixels[0], count);
     else if (count == kBlockPixels)
-      collector.fast->see_block(pixels);
+      (is_few && collector.fast->see_block(few)) || (collector.fast->see_block(pixels), true);
     else
       for (uint32_t i = 0; i < count; ++i) collector.fast->see_run(pixels[i], 1);
   }
 }
 
+/// Blocks of one colour come in rows: each counts like the one before. False if this one does not.
+bool SurfaceEngine::State::repeat_block(uint32_t bx, uint32_t by, const uint32_t* top_left) {
+  if (!last.solid || !can_repeat || !kernels().is_solid(top_left, now.stride(), last.color)) return false;
+  ++last.repeats;
+  collect_solid(bx, by, last.color);
+  if (!surfaces.empty())
+    for (Lane& lane : lanes) lane.store.put_again(bx, by);
+  if (block_bits != nullptr)
+    for (size_t i = 0; i < lanes.size(); ++i)
+      block_bits->schemes[i][size_t{by} * block_bits->blocks_x + bx] =
+          static_cast<uint16_t>(lanes[i].last.payload_bits);
+  return true;
+}
+
+void SurfaceEngine::State::settle_repeats(FrameStatistics& out) {
+  if (last.repeats == 0) return;
+  for (size_t i = 0; i < lanes.size(); ++i) out.schemes[i].add(lanes[i].last, last.repeats);
+  last.repeats = 0;
+}
+
+/// Whether the block has few colours, into `few`. Looking in vain costs as much as it saves otherwise, so
+/// where blocks have many colours few of them are looked at. What comes out does not depend on it.
+bool SurfaceEngine::State::split_few(const uint32_t* pixels) {
+  constexpr uint32_t kBest = 12, kFailure = 4, kPause = 7;
+  if (collectors.empty() || until_few > 0) {
+    until_few -= until_few > 0;
+    return false;
+  }
+  const bool found = kernels().split(pixels, few);
+  few_score = found ? std::min(few_score + 1, kBest) : few_score - std::min(few_score, kFailure);
+  if (few_score == 0 && !found) until_few = kPause;
+  return found;
+}
+
 void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTraits& format,
                                        FrameStatistics& out) {
-  alignas(64) uint32_t pixels[kBlockPixels];
   const uint32_t* top_left = now.row(by * kBlockSide) + bx * kBlockSide;
+  if (repeat_block(bx, by, top_left)) return;
+  settle_repeats(out);
+  alignas(64) uint32_t pixels[kBlockPixels];
   Block block;
   BlockContext context{.block = block, .bx = bx, .by = by, .pixels = pixels};
   context.uniform = kernels().load_traversal(top_left, now.stride(), pixels);
-  now.load_block(bx, by, block);
+  is_few = !context.uniform && split_few(pixels);
+  last.solid = context.uniform;
+  last.color = pixels[0];
+  if (needs_raster || (needs_raster_to_encode && !surfaces.empty())) now.load_block(bx, by, block);
   for (Collector& collector : collectors) {
     if (!collector.wanted || !collector.has_ccd) continue;
-    if (context.uniform) {
+    if (is_few) {
+      collector.lookup.find_block(pixels, few, collector.indices.data(), collector.largest.data());
+    } else if (context.uniform) {
       const uint32_t index = collector.lookup.find(pixels[0]);
       collector.indices.fill(index);
       collector.largest.fill(index);
@@ -189,26 +279,30 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
   if (needs_ras_ycocg) context.ras_ycocg_bits = ras_bits(context, top_left, format, true);
   for (size_t i = 0; i < lanes.size(); ++i) {
     Lane& lane = lanes[i];
-    SchemeStatistics& scheme = out.schemes[i];
     const bool look_up = lane.collector != nullptr && lane.collector->has_ccd;
     context.ccd_indices = look_up ? lane.collector->indices.data() : nullptr;
     context.ccd_largest = look_up ? lane.collector->largest.data() : nullptr;
-    const uint32_t payload_bits = lane.encoder->measure(context);
-    scheme.payload_bits += payload_bits;
+    const uint32_t payload_bits =
+        surfaces.empty() ? lane.encoder->measure(context) : lane.store.put(*lane.encoder, context);
+    if (context.uniform) lane.last = {};
+    SchemeStatistics& added = context.uniform ? lane.last : out.schemes[i];
+    added.payload_bits += payload_bits;
+    added.bursts += (payload_bits + burst_round) >> burst_shift;
+    lane.encoder->account(context, payload_bits, added);
+    if (lane.decoder) {
+      ++added.checked_blocks;
+      added.mismatched_blocks += !check.round_trip(*lane.encoder, *lane.decoder, context, payload_bits);
+    }
+    if (context.uniform) out.schemes[i].add(lane.last, 1);
     if (block_bits != nullptr)
       block_bits->schemes[i][size_t{by} * block_bits->blocks_x + bx] = static_cast<uint16_t>(payload_bits);
-    scheme.bursts += (payload_bits + burst_round) >> burst_shift;
-    lane.encoder->account(context, payload_bits, scheme);
-    if (!surfaces.empty()) lane.store.put(*lane.encoder, context);
-    if (lane.decoder) {
-      ++scheme.checked_blocks;
-      scheme.mismatched_blocks += !check.round_trip(*lane.encoder, *lane.decoder, context, payload_bits);
-    }
   }
   collect(context);
 }
 
 void SurfaceEngine::State::end_frame(FrameStatistics& out) {
+  settle_repeats(out);
+  settle_run();
   for (Collector& collector : collectors)
     if (collector.collecting && collector.fast) collector.fast->store_to(collector.fvc);
   const uint64_t blocks = now.blocks();
@@ -279,15 +373,21 @@ void SurfaceEngine::process(const SurfaceView& frame, FrameStatistics& out,
   State& state = *state_;
   const FormatTraits& format = traits(frame.format);
   assert(!state.has_before || state.now.has_shape_of(frame));
-  state.changed = state.now.assign(frame);
+  state.now.reshape(frame);
   if (!state.opened) state.open(format);
   out.width = frame.width;
   out.height = frame.height;
   out.format = frame.format;
   out.warmup = state.ordinal == 0;
+  state.changed = state.needs_whole_frame ? state.now.assign(frame) : 0;
   state.begin_frame(out);
-  for_each_block(state.now.blocks_x(), state.now.blocks_y(), state.options.tile_side,
-                 [&](uint32_t bx, uint32_t by) { state.visit_block(bx, by, format, out); });
+  for_each_block(
+      state.now.blocks_x(), state.now.blocks_y(), state.options.tile_side,
+      [&](uint32_t begin_y, uint32_t end_y) {  // rows are copied while they are at hand
+        if (!state.needs_whole_frame)
+          state.changed += state.now.assign_rows(frame, begin_y * kBlockSide, end_y * kBlockSide);
+      },
+      [&](uint32_t bx, uint32_t by) { state.visit_block(bx, by, format, out); });
   state.end_frame(out);
   const auto end = std::chrono::steady_clock::now();
   out.encode_ns =

@@ -151,7 +151,7 @@ class BdiEncoder final : public BlockEncoder {
   BdiEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions&)
       : order_(spec.order), pixel_bits_(format.pixel_bits) {}
 
-  SchemeNeeds needs() const override { return {}; }
+  SchemeNeeds needs() const override { return {.raster = true, .raster_to_encode = true}; }
   void begin_frame(const FrameContext&) override {}
   uint32_t csb_bits() const override { return kBlockPixels * pixel_bits_ / 512 * kCodeBits; }
   uint64_t palette_bits() const override { return 0; }

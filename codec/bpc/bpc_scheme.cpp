@@ -41,7 +41,7 @@ class BpcEncoder final : public BlockEncoder {
   BpcEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions&)
       : coder_(spec, format) {}
 
-  SchemeNeeds needs() const override { return {}; }
+  SchemeNeeds needs() const override { return {.raster = true, .raster_to_encode = true}; }
   void begin_frame(const FrameContext&) override {}
   uint32_t csb_bits() const override { return coder_.lines * kSizeBits; }
   uint64_t palette_bits() const override { return 0; }

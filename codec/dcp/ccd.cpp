@@ -70,6 +70,13 @@ void CcdLookup::find_block(const uint32_t* pixels, uint32_t* indices, uint32_t* 
     std::fill_n(largest + i, 4, std::max({indices[i], indices[i + 1], indices[i + 2], indices[i + 3]}));
 }
 
+void CcdLookup::find_block(const uint32_t* pixels, const FewColors& few, uint32_t* indices,
+                           uint32_t* largest) const {
+  uint32_t found[FewColors::kMost];
+  for (uint32_t n = 0; n < few.count; ++n) found[n] = find(few.colors[n]);
+  kernels().find_few(pixels, few, found, indices, largest);
+}
+
 void Rccd::write(const Ccd& ccd, uint32_t slots, uint32_t pixel_bits, BitWriter& out) {
   for (uint32_t i = 0; i < slots; ++i) {
     const bool valid = i < ccd.colors.size();

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "simd/kernels.h"
 #include "simd/probe_table.h"
 #include "tilepress/bit_io.h"
 #include "tilepress/block.h"
@@ -41,6 +42,8 @@ class CcdLookup {
   /// A block of 64 pixels in traversal order: its indices, and for each pixel the largest index of its
   /// sub-block.
   void find_block(const uint32_t* pixels, uint32_t* indices, uint32_t* largest) const;
+  /// The same for a block of few colours.
+  void find_block(const uint32_t* pixels, const FewColors& few, uint32_t* indices, uint32_t* largest) const;
 
  private:
   bool place_all(const Ccd& ccd, bool probing);

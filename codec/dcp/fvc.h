@@ -24,6 +24,14 @@ class Fvc {
     }
     until_sample_ -= count;
   }
+  /// The same for `count` pixels of one colour.
+  void see_run(uint32_t color, uint32_t count) {
+    for (; count >= until_sample_; collect(color)) {
+      count -= until_sample_;
+      until_sample_ = config_.sample;
+    }
+    until_sample_ -= count;
+  }
   /// Empties it, as at the start of each frame it collects in.
   void reset();
   /// The next pixel of the frame inside the surface, in traversal order; counts it if it is a sampled one.

@@ -155,6 +155,18 @@ void LfcCollector::see_run(uint32_t color, uint32_t count) {
   settle_tail();
 }
 
+bool LfcCollector::see_block(const FewColors& few) {
+  uint32_t places[FewColors::kMost];
+  for (uint32_t n = 0; n < few.count; ++n) {
+    places[n] = place_of(few.colors[n]);
+    if (places[n] == outside()) return false;
+  }
+  for (uint32_t n = 0; n < few.count; ++n)
+    counts_[places[n]] += static_cast<uint32_t>(std::popcount(few.places[n]));
+  samples_ += kLanes;
+  return true;
+}
+
 void LfcCollector::see_block(const uint32_t* pixels) {
   uint32_t places[kLanes];
   uint32_t from = 0;  // pixels before are counted

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "simd/kernels.h"
 #include "simd/probe_table.h"
 
 namespace tilepress {
@@ -30,6 +31,8 @@ class LfcCollector {
   void reset();
   /// A whole block, 64 pixels in traversal order.
   void see_block(const uint32_t* pixels);
+  /// The same for a block of few colours. False, and nothing happened, if not all of them are held.
+  bool see_block(const FewColors& few);
   /// `count` pixels of one colour in a row.
   void see_run(uint32_t color, uint32_t count);
   /// Hands slots, counts and samples to the plain FVC.

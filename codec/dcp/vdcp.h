@@ -24,10 +24,21 @@ inline uint32_t vdcp_measure(const BlockContext& block, uint32_t pixel_bits) {
   return kernels().width_sum(block.ccd_largest, kNotInCcd, pixel_bits);
 }
 
+/// Up to this width the indices of two sub-blocks fit into one put.
+constexpr uint32_t kMaxPairedBits = kMaxBitsPerCall / (2 * kSubBlockPixels);
+
+/// Widths of the sub-blocks, kRawWidth for raw ones. `look_up` = false: all raw.
+inline void vdcp_widths(const BlockContext& block, bool look_up, uint32_t* widths) {
+  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+    const uint32_t largest = look_up ? block.ccd_largest[sub * kSubBlockPixels] : kNotInCcd;
+    widths[sub] = largest == kNotInCcd ? kRawWidth : vdcp_width(largest);
+  }
+}
+
 /// Writes a block: per sub-block `csb_width` ≤ 5 CSB bits holding the width, or `raw_mark` for a raw one.
-/// `look_up` = false: all raw.
-inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t pixel_bits, uint32_t csb_width,
-                        uint32_t raw_mark, BitWriter& payload, BitWriter& csb) {
+/// `look_up` = false: all raw. Indices have at most `index_bits` bits.
+inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t index_bits, uint32_t pixel_bits,
+                        uint32_t csb_width, uint32_t raw_mark, BitWriter& payload, BitWriter& csb) {
   if (block.uniform && look_up && block.ccd_largest[0] != kNotInCcd) {  // sixteen equal sub-blocks
     const uint64_t index = block.ccd_indices[0];
     const uint32_t width = vdcp_width(block.ccd_largest[0]);
@@ -41,19 +52,33 @@ inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t pixel_
     payload = out;
     return;
   }
+  uint32_t packed[kSubBlocks], widths[kSubBlocks];
+  const bool pairs = look_up && index_bits <= kMaxPairedBits;
+  if (pairs)
+    kernels().pack(block.ccd_indices, block.ccd_largest, kNotInCcd, packed, widths);
+  else
+    vdcp_widths(block, look_up, widths);
   BitWriter out = payload;
-  uint64_t marks = 0;  // of eight sub-blocks
+  const auto two_marks = [&](uint32_t sub) {
+    const uint64_t first = widths[sub] == kRawWidth ? raw_mark : widths[sub];
+    return first << csb_width | (widths[sub + 1] == kRawWidth ? raw_mark : widths[sub + 1]);
+  };
+  const auto four_marks = [&](uint32_t sub) { return two_marks(sub) << 2 * csb_width | two_marks(sub + 2); };
+  for (uint32_t sub = 0; sub < kSubBlocks; sub += 8)
+    csb.put(four_marks(sub) << 4 * csb_width | four_marks(sub + 4), 8 * csb_width);
   for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-    const uint32_t at = sub * kSubBlockPixels;
-    const uint32_t largest = look_up ? block.ccd_largest[at] : kNotInCcd;
-    const uint32_t width = vdcp_width(largest);
-    marks = marks << csb_width | (largest == kNotInCcd ? raw_mark : width);
-    if (sub % 8 == 7) {
-      csb.put(marks, 8 * csb_width);
-      marks = 0;
-    }
-    if (largest == kNotInCcd) {
+    const uint32_t at = sub * kSubBlockPixels, width = widths[sub];
+    if (width == kRawWidth) {
       write_raw_pixels(block.pixels + at, kSubBlockPixels, pixel_bits, out);
+    } else if (pairs) {
+      const uint32_t next = sub + 1 < kSubBlocks ? widths[sub + 1] : kRawWidth;
+      if (next == kRawWidth) {
+        out.put(packed[sub], kSubBlockPixels * width);
+      } else {  // two at once
+        out.put(uint64_t{packed[sub]} << kSubBlockPixels * next | packed[sub + 1],
+                kSubBlockPixels * (width + next));
+        ++sub;
+      }
     } else {
       uint64_t indices = 0;  // four of at most 10 bits
       for (uint32_t i = 0; i < kSubBlockPixels; ++i) indices = indices << width | block.ccd_indices[at + i];
@@ -68,11 +93,15 @@ inline bool vdcp_decode_sub_block(const Rccd& rccd, uint32_t width, uint32_t sub
                                   Block& out) {
   const uint64_t indices = payload.get(kSubBlockPixels * width);
   const uint64_t mask = (uint64_t{1} << width) - 1;
+  uint64_t largest = 0, index[kSubBlockPixels];
   for (uint32_t i = 0; i < kSubBlockPixels; ++i) {
-    const uint64_t index = indices >> (3 - i) * width & mask;
-    if (index >= rccd.colors.size()) return false;
-    out.pixels[sub_block_pixel(sub, i)] = rccd.colors[index];
+    index[i] = indices >> (3 - i) * width & mask;
+    largest |= index[i];
   }
+  if (largest >= rccd.colors.size())  // at least one index may be; look again
+    for (const uint64_t each : index)
+      if (each >= rccd.colors.size()) return false;
+  for (uint32_t i = 0; i < kSubBlockPixels; ++i) out.pixels[sub_block_pixel(sub, i)] = rccd.colors[index[i]];
   return true;
 }
 

@@ -31,9 +31,9 @@ class VdcpEncoder final : public DcpFamilyEncoder {
     return active() ? vdcp_measure(block, pixel_bits_) : raw_block_bits();
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
-    if (off_) return write_raw_block(block.block, pixel_bits_, payload);
+    if (off_) return write_raw_block(block.pixels, pixel_bits_, payload);
     const uint32_t width = csb_width(index_bits_);
-    vdcp_encode(block, active(), pixel_bits_, width, (1u << width) - 1, payload, csb);
+    vdcp_encode(block, active(), index_bits_, pixel_bits_, width, (1u << width) - 1, payload, csb);
   }
 };
 
@@ -44,8 +44,14 @@ class VdcpDecoder final : public DcpFamilyDecoder {
 
   bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
     const uint32_t csb_bits = csb_width(index_bits_), raw_mark = (1u << csb_bits) - 1;
+    uint64_t marks[2] = {0, 0};  // of eight sub-blocks each
+    for (uint64_t& half : marks)
+      if (!off_) half = csb.get(8 * csb_bits);
+    if (!off_ && marks[0] == marks[1] && decode_solid(marks[0], csb_bits, payload, out))
+      return !csb.overran() && !payload.overran();
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-      const auto width = off_ ? raw_mark : static_cast<uint32_t>(csb.get(csb_bits));
+      const auto width =
+          off_ ? raw_mark : static_cast<uint32_t>(marks[sub / 8] >> (7 - sub % 8) * csb_bits & raw_mark);
       if (width == raw_mark)
         read_raw_sub_block(payload, sub, pixel_bits_, out);
       else if (width > index_bits_ || !vdcp_decode_sub_block(rccd_, width, sub, payload, out))
@@ -56,6 +62,26 @@ class VdcpDecoder final : public DcpFamilyDecoder {
 
  protected:
   uint32_t on_csb_bits() const override { return kSubBlocks * csb_width(index_bits_); }
+
+ private:
+  /// Blocks of one colour are common, and quicker to fill than to look up pixel by pixel. False, and nothing
+  /// is read, if this is none. `marks` are those of either half.
+  bool decode_solid(uint64_t marks, uint32_t csb_bits, BitReader& payload, Block& out) const {
+    const uint64_t width = marks & ((1u << csb_bits) - 1);
+    if (width > index_bits_ || marks >> csb_bits != (marks & ((uint64_t{1} << 7 * csb_bits) - 1)))
+      return false;
+    const auto bits = static_cast<uint32_t>(kSubBlockPixels * width);
+    BitReader in = payload;
+    const uint64_t indices = in.get(bits);
+    for (uint32_t sub = 1; sub < kSubBlocks; ++sub)
+      if (in.get(bits) != indices) return false;
+    const uint64_t index = indices & ((uint64_t{1} << width) - 1);
+    const bool alike = indices >> width == (indices & ((uint64_t{1} << 3 * width) - 1));
+    if (!alike || index >= rccd_.colors.size()) return false;
+    out.pixels.fill(rccd_.colors[index]);
+    payload = in;
+    return true;
+  }
 };
 
 }  // namespace

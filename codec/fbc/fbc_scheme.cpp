@@ -33,7 +33,7 @@ class FbcEncoder final : public BlockEncoder {
   FbcEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions& model)
       : entries_(spec.entries), pixel_bits_(format.pixel_bits), burst_bits_(model.burst_bits) {}
 
-  SchemeNeeds needs() const override { return {}; }
+  SchemeNeeds needs() const override { return {.whole_frame = true}; }
   void begin_frame(const FrameContext& frame) override {
     std::vector<uint32_t> colors, counts;
     for (const ColorCount& entry : most_frequent_colors(frame.plane, entries_)) {

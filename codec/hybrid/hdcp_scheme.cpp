@@ -23,7 +23,7 @@ class HdcpEncoder final : public DcpFamilyEncoder {
         format_(format),
         classes_{RasSizes::kThree, kBlockPixels * format.pixel_bits, model.burst_bits} {}
 
-  SchemeNeeds needs() const override { return {.ccd = true, .ras = true}; }
+  SchemeNeeds needs() const override { return {.ccd = true, .ras = true, .raster_to_encode = true}; }
   uint32_t csb_bits() const override { return off_ ? classes_.csb_bits() : kSubBlocks * kSubBlockCsbBits; }
   uint64_t palette_bits() const override {
     return active() ? uint64_t{ccd_->entries} * (pixel_bits_ + 1) : 0;
@@ -35,12 +35,12 @@ class HdcpEncoder final : public DcpFamilyEncoder {
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     const uint32_t cls = classes_.class_of(block.ras_bits);
     if (choose(block).vdcp)
-      return vdcp_encode(block, active(), pixel_bits_, kSubBlockCsbBits, kRawMark, payload, csb);
+      return vdcp_encode(block, active(), index_bits_, pixel_bits_, kSubBlockCsbBits, kRawMark, payload, csb);
     if (off_)
       csb.put(cls, classes_.csb_bits());
     else
       for (uint32_t sub = 0; sub < kSubBlocks; ++sub) csb.put(kRasMark + cls, kSubBlockCsbBits);
-    ras_block_write(block.block, cls, classes_, format_, false, payload);
+    ras_block_write(block, cls, classes_, format_, false, payload);
   }
   void account(const BlockContext& block, uint32_t, SchemeStatistics& statistics) const override {
     const bool vdcp = choose(block).vdcp;

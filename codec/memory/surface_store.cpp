@@ -1,6 +1,7 @@
 // Surface store: slots are written in place; CSB bits are merged, as blocks share bytes.
 #include "memory/surface_store.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <span>
@@ -8,11 +9,18 @@
 namespace tilepress {
 namespace {
 
-constexpr uint32_t kMaxCsbBytes = 32;
-
 /// ORs `bits` bits of `from` into `plane` at bit `position`.
 void merge_bits(std::span<const uint8_t> from, uint32_t bits, std::vector<uint8_t>& plane,
                 uint64_t position) {
+  if (bits <= kMaxBitsPerCall && position / 8 + 8 <= plane.size()) {  // at once, if it ends in the word
+    uint64_t value, word;
+    std::memcpy(&value, from.data(), 8);
+    value = bit_io::big_endian(value) >> position % 8;  // what follows the bits is zero
+    std::memcpy(&word, &plane[position / 8], 8);
+    word |= bit_io::big_endian(value);
+    std::memcpy(&plane[position / 8], &word, 8);
+    return;
+  }
   BitReader reader(from, bits);
   while (bits > 0) {
     const uint64_t byte = position / 8;
@@ -61,23 +69,37 @@ void SurfaceStore::begin_frame(const SchemeSpec& spec, const ModelOptions& optio
   assert(tables.bit_count() == out.table_bits);
 }
 
-void SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& block) {
+uint32_t SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& block) {
   CompressedSurface& out = *surface_;
-  const uint64_t number = uint64_t{block.by} * out.blocks_x() + block.bx;
-  std::array<uint8_t, kMaxCsbBytes> csb_bytes;
-  const auto slot = std::span(out.payload).subspan(number * out.slot_bytes(), out.slot_bytes());
-  if (number + 1 < out.blocks())
-    __builtin_prefetch(slot.data() + out.slot_bytes(), 1);  // most often the next
+  last_ = uint64_t{block.by} * out.blocks_x() + block.bx;
+  const auto slot = std::span(out.payload).subspan(last_ * out.slot_bytes(), out.slot_bytes());
+  if (last_ + 1 < out.blocks()) __builtin_prefetch(slot.data() + out.slot_bytes(), 1);  // most often the next
   BitWriter payload(slot);
-  BitWriter csb(csb_bytes);
+  BitWriter csb(last_csb_);
   encoder.encode(block, payload, csb);
   payload.flush();
   csb.flush();
   assert(!payload.overflowed() && !csb.overflowed() && csb.bit_count() == out.csb_bits);
-  const size_t used_bytes = (payload.bit_count() + 7) / 8, used_before = (out.block_bits[number] + 7u) / 8;
+  const auto payload_bits = static_cast<uint32_t>(payload.bit_count());
+  const size_t used_bytes = (payload_bits + 7) / 8, used_before = (out.block_bits[last_] + 7u) / 8;
   if (used_bytes < used_before) std::memset(&slot[used_bytes], 0, used_before - used_bytes);
-  out.block_bits[number] = static_cast<uint16_t>(payload.bit_count());
-  merge_bits(csb_bytes, out.csb_bits, out.csb, number * out.csb_bits);
+  out.block_bits[last_] = static_cast<uint16_t>(payload_bits);
+  merge_bits(last_csb_, out.csb_bits, out.csb, last_ * out.csb_bits);
+  return payload_bits;
+}
+
+void SurfaceStore::put_again(uint32_t bx, uint32_t by) {
+  constexpr size_t kLine = 64;  // slots are so many bytes, or a multiple
+  CompressedSurface& out = *surface_;
+  const uint64_t number = uint64_t{by} * out.blocks_x() + bx;
+  const uint16_t payload_bits = out.block_bits[last_];
+  const size_t most_bytes = (std::max(payload_bits, out.block_bits[number]) + 7u) / 8;
+  // Whole lines: what lies behind a block's payload is zero in either slot.
+  for (size_t at = 0; at < most_bytes; at += kLine)
+    std::memcpy(&out.payload[number * out.slot_bytes() + at], &out.payload[last_ * out.slot_bytes() + at],
+                kLine);
+  out.block_bits[number] = payload_bits;
+  merge_bits(last_csb_, out.csb_bits, out.csb, number * out.csb_bits);
 }
 
 }  // namespace tilepress

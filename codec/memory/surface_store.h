@@ -14,10 +14,16 @@ class SurfaceStore {
   /// After encoder.begin_frame(). `out` is not owned; its buffers are re-used.
   void begin_frame(const SchemeSpec& spec, const ModelOptions& options, const FrameContext& frame,
                    const BlockEncoder& encoder, CompressedSurface& out);
-  void put(const BlockEncoder& encoder, const BlockContext& block);
+  /// Returns the block's payload bits.
+  uint32_t put(const BlockEncoder& encoder, const BlockContext& block);
+  /// The block put last, at another place.
+  void put_again(uint32_t bx, uint32_t by);
 
  private:
+  static constexpr uint32_t kMaxCsbBytes = 32;
   CompressedSurface* surface_ = nullptr;
+  uint64_t last_ = 0;                             ///< number of the block put last by put()
+  std::array<uint8_t, kMaxCsbBytes> last_csb_{};  ///< its CSB bits
 };
 
 }  // namespace tilepress

@@ -51,7 +51,7 @@ class PaletteEncoder final : public BlockEncoder {
     from_file_ = true;
   }
 
-  SchemeNeeds needs() const override { return {.first_frame = !from_file_}; }
+  SchemeNeeds needs() const override { return {.first_frame = !from_file_, .whole_frame = !from_file_}; }
   void begin_frame(const FrameContext& frame) override {
     if (from_file_) return;
     if (frame.ordinal == 0) {

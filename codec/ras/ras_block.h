@@ -4,15 +4,16 @@
 #include "ras/ras_classes.h"
 #include "ras/ras_stream.h"
 #include "raw_bits.h"
+#include "tilepress/scheme.h"
 
 namespace tilepress {
 
 /// Writes classes.bits_of(cls) payload bits. `cls` is the class of the block's stream.
-inline void ras_block_write(const Block& block, uint32_t cls, const RasClasses& classes,
+inline void ras_block_write(const BlockContext& block, uint32_t cls, const RasClasses& classes,
                             const FormatTraits& format, bool ycocg, BitWriter& payload) {
-  if (cls == classes.raw_class()) return write_raw_block(block, format.pixel_bits, payload);
+  if (cls == classes.raw_class()) return write_raw_block(block.pixels, format.pixel_bits, payload);
   const uint64_t end = payload.bit_count() + classes.bits_of(cls);
-  ras_stream_write(block, format, ycocg, payload);
+  ras_stream_write(block.block, format, ycocg, payload);
   payload.pad_to(end);
 }
 

@@ -24,7 +24,9 @@ class RasEncoder final : public BlockEncoder {
   RasEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions& model)
       : coder_(spec, format, model) {}
 
-  SchemeNeeds needs() const override { return {.ras = !coder_.ycocg, .ras_ycocg = coder_.ycocg}; }
+  SchemeNeeds needs() const override {
+    return {.ras = !coder_.ycocg, .ras_ycocg = coder_.ycocg, .raster_to_encode = true};
+  }
   void begin_frame(const FrameContext&) override {}
   uint32_t csb_bits() const override { return coder_.classes.csb_bits(); }
   uint64_t palette_bits() const override { return 0; }
@@ -35,7 +37,7 @@ class RasEncoder final : public BlockEncoder {
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     const uint32_t cls = class_of(block);
     csb.put(cls, csb_bits());
-    ras_block_write(block.block, cls, coder_.classes, coder_.format, coder_.ycocg, payload);
+    ras_block_write(block, cls, coder_.classes, coder_.format, coder_.ycocg, payload);
   }
 
  private:

@@ -45,10 +45,9 @@ class RedEncoder final : public BlockEncoder {
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     const uint32_t mode = red_mode(block);
     csb.put(mode, 2);
-    if (mode == kRaw) return write_raw_block(block.block, pixel_bits_, payload);
-    for (uint32_t y = 0; y < kBlockSide; y += 2)
-      for (uint32_t x = 0; x < kBlockSide; x += region_width(mode))
-        payload.put(block.block.pixels[8 * y + x], pixel_bits_);
+    if (mode == kRaw) return write_raw_block(block.pixels, pixel_bits_, payload);
+    for (uint32_t sub = 0; sub < kSubBlocks; sub += region_width(mode) / kSubBlockSide)
+      payload.put(block.pixels[sub * kSubBlockPixels], pixel_bits_);
   }
 
  private:

@@ -11,6 +11,19 @@ namespace tilepress {
 /// Pixels of a block in traversal order.
 constexpr uint32_t kLanes = 64;
 
+/// The colours of a block that has few, in the order in which they first come.
+struct FewColors {
+  static constexpr uint32_t kMost = 8;
+  /// After n colours at least this many pixels must be of one of them, or to go on does not pay.
+  static constexpr uint32_t kPixelsPerColor = 6;
+  uint32_t count = 0;
+  uint32_t colors[kMost];
+  uint64_t places[kMost];  ///< bit i: pixel i is of this colour
+};
+
+/// Stands for a sub-block without indices.
+constexpr uint32_t kRawWidth = 0xFF;
+
 struct Kernels {
   const char* name;
 
@@ -18,13 +31,29 @@ struct Kernels {
   /// True if all 64 pixels are equal.
   bool (*load_traversal)(const uint32_t* top_left, uint32_t stride, uint32_t* pixels);
 
+  /// True if all 64 pixels of an 8×8 block are `color`.
+  bool (*is_solid)(const uint32_t* top_left, uint32_t stride, uint32_t color);
+
   /// values[i] = the table's value of pixels[i], `absent` if it has none; largest[i] = the largest of the
   /// four values of i's sub-block. For collision-free tables.
   void (*find)(const uint32_t* pixels, const ProbeTable& table, uint32_t absent, uint32_t* values,
                uint32_t* largest);
 
+  /// False if the block has too many colours, see FewColors.
+  bool (*split)(const uint32_t* pixels, FewColors& out);
+
+  /// As find, where the values of the block's few colours are known.
+  void (*find_few)(const uint32_t* pixels, const FewColors& few, const uint32_t* few_values, uint32_t* values,
+                   uint32_t* largest);
+
   /// Sum over the lanes of the bit width of largest[i]; `raw_bits` where it is `absent`: VDCP's payload.
   uint32_t (*width_sum)(const uint32_t* largest, uint32_t absent, uint32_t raw_bits);
+
+  /// Per sub-block s: widths[s] = the bit width of largest[4s], kRawWidth where that is `absent`; packed[s] =
+  /// its four indices, the first on top, of as many bits each; of no meaning where it is raw. Indices of at
+  /// most 8 bits.
+  void (*pack)(const uint32_t* indices, const uint32_t* largest, uint32_t absent, uint32_t* packed,
+               uint32_t* widths);
 
   /// Number of lanes with largest[i] < limit.
   uint32_t (*count_below)(const uint32_t* largest, uint32_t limit);

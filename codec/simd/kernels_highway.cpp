@@ -38,6 +38,16 @@ bool LoadTraversal(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint3
   return hn::AllTrue(d32, hn::Eq(hn::BitCast(d32, difference), hn::Zero(d32)));
 }
 
+bool IsSolid(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t color) {
+  const hn::CappedTag<uint32_t, 8> d;
+  const auto wanted = hn::Set(d, color);
+  auto difference = hn::Zero(d);
+  for (uint32_t y = 0; y < 8; ++y)
+    for (size_t x = 0; x < 8; x += hn::Lanes(d))
+      difference = hn::Or(difference, hn::Xor(hn::LoadU(d, top_left + size_t{y} * stride + x), wanted));
+  return hn::AllTrue(d, hn::Eq(difference, hn::Zero(d)));
+}
+
 void Find(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table, uint32_t absent,
           uint32_t* HWY_RESTRICT values, uint32_t* HWY_RESTRICT largest) {
   const Words d;
@@ -49,6 +59,45 @@ void Find(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table, uint32_t
         hn::BitCast(di, hn::ShiftRightSame(hn::Mul(color, multiplier), static_cast<int>(table.shift)));
     const auto key = hn::GatherIndex(d, table.colors.data(), at);
     const auto value = hn::IfThenElse(hn::Eq(key, color), hn::GatherIndex(d, table.values.data(), at), none);
+    hn::StoreU(value, d, values + i);
+    const auto pair = hn::Max(value, hn::Shuffle2301(value));
+    hn::StoreU(hn::Max(pair, hn::Shuffle1032(pair)), d, largest + i);
+  }
+}
+
+bool Split(const uint32_t* HWY_RESTRICT pixels, FewColors& out) {
+  const Words d;
+  uint32_t count = 0, covered = 0;
+  for (uint64_t left = ~uint64_t{0}; left != 0; ++count) {
+    if (count == FewColors::kMost || covered < count * FewColors::kPixelsPerColor) return false;
+    const uint32_t color = pixels[__builtin_ctzll(left)];
+    const auto wanted = hn::Set(d, color);
+    uint64_t places = 0;
+    for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
+      uint8_t bits[8] = {};
+      hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, pixels + i), wanted), bits);
+      uint64_t lanes;
+      __builtin_memcpy(&lanes, bits, 8);
+      places |= lanes << i;
+    }
+    out.colors[count] = color;
+    out.places[count] = places;
+    left &= ~places;
+    covered = kLanes - static_cast<uint32_t>(__builtin_popcountll(left));
+  }
+  out.count = count;
+  return true;
+}
+
+void FindFew(const uint32_t* HWY_RESTRICT pixels, const FewColors& few,
+             const uint32_t* HWY_RESTRICT few_values, uint32_t* HWY_RESTRICT values,
+             uint32_t* HWY_RESTRICT largest) {
+  const Words d;
+  for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
+    const auto color = hn::LoadU(d, pixels + i);
+    auto value = hn::Set(d, few_values[0]);
+    for (uint32_t n = 1; n < few.count; ++n)
+      value = hn::IfThenElse(hn::Eq(color, hn::Set(d, few.colors[n])), hn::Set(d, few_values[n]), value);
     hn::StoreU(value, d, values + i);
     const auto pair = hn::Max(value, hn::Shuffle2301(value));
     hn::StoreU(hn::Max(pair, hn::Shuffle1032(pair)), d, largest + i);
@@ -70,6 +119,31 @@ uint32_t WidthSum(const uint32_t* HWY_RESTRICT largest, uint32_t absent, uint32_
     sum = hn::Add(sum, hn::IfThenElse(hn::RebindMask(di, hn::Eq(index, none)), raw, width));
   }
   return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(di, sum)));
+}
+
+void Pack(const uint32_t* HWY_RESTRICT indices, const uint32_t* HWY_RESTRICT largest, uint32_t absent,
+          uint32_t* HWY_RESTRICT packed, uint32_t* HWY_RESTRICT widths) {
+  const Words d;
+  const hn::RebindToSigned<Words> di;
+  const hn::RebindToFloat<Words> df;
+  HWY_ALIGN static constexpr uint32_t kPlace[16] = {3, 2, 1, 0, 3, 2, 1, 0, 3, 2, 1, 0, 3, 2, 1, 0};
+  const auto place = hn::LoadU(d, kPlace), none = hn::Set(d, absent), raw = hn::Set(d, kRawWidth);
+  HWY_ALIGN uint32_t all_packed[kLanes], all_widths[kLanes];
+  for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
+    const auto top = hn::LoadU(d, largest + i);
+    const auto exponent = hn::ShiftRight<23>(hn::BitCast(di, hn::ConvertTo(df, hn::BitCast(di, top))));
+    const auto bits = hn::BitCast(d, hn::Max(hn::Sub(exponent, hn::Set(di, 126)), hn::Zero(di)));
+    const auto width = hn::IfThenElse(hn::Eq(top, none), raw, bits);
+    const auto shift = hn::And(hn::Mul(bits, place), hn::Set(d, 31));  // a raw one's may be larger
+    const auto shifted = hn::Shl(hn::LoadU(d, indices + i), shift);
+    const auto pairs = hn::Or(shifted, hn::Shuffle2301(shifted));
+    hn::StoreU(hn::Or(pairs, hn::Shuffle1032(pairs)), d, all_packed + i);
+    hn::StoreU(width, d, all_widths + i);
+  }
+  for (uint32_t sub = 0; sub < kLanes / 4; ++sub) {
+    packed[sub] = all_packed[sub * 4];
+    widths[sub] = all_widths[sub * 4];
+  }
 }
 
 uint32_t CountBelow(const uint32_t* HWY_RESTRICT largest, uint32_t limit) {
@@ -183,8 +257,9 @@ uint64_t ReplaceRow(const std::byte* words, uint32_t count, bool swap_red_blue, 
   size_t x = 0;
   for (; x + lanes <= count; x += lanes) {
     const auto word = vector_at(x);
-    same = hn::Add(same, hn::VecFromMask(d, hn::Eq(word, hn::LoadU(d, row + x))));
-    hn::StoreU(word, d, row + x);
+    const auto equal = hn::Eq(word, hn::LoadU(d, row + x));
+    same = hn::Add(same, hn::VecFromMask(d, equal));
+    if (!hn::AllTrue(d, equal)) hn::StoreU(word, d, row + x);  // what stays is not written again
   }
   const auto alike = static_cast<uint32_t>(0u - hn::GetLane(hn::SumOfLanes(d, same)));
   return x - alike +
@@ -204,8 +279,8 @@ void WidenBytes(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, int16_t*
 }
 
 const Kernels& Set(const char* name) {
-  static const Kernels kSet = {name,    LoadTraversal, Find,       WidthSum,  CountBelow,
-                               Members, RasCodeBits,   ReplaceRow, WidenBytes};
+  static const Kernels kSet = {name, LoadTraversal, IsSolid, Find,        Split,      FindFew,   WidthSum,
+                               Pack, CountBelow,    Members, RasCodeBits, ReplaceRow, WidenBytes};
   return kSet;
 }
 

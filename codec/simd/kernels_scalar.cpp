@@ -19,14 +19,48 @@ bool load_traversal(const uint32_t* top_left, uint32_t stride, uint32_t* pixels)
   return uniform;
 }
 
+bool is_solid(const uint32_t* top_left, uint32_t stride, uint32_t color) {
+  for (uint32_t y = 0; y < kBlockSide; ++y)
+    for (uint32_t x = 0; x < kBlockSide; ++x)
+      if (top_left[y * stride + x] != color) return false;
+  return true;
+}
+
+void fill_largest(const uint32_t* values, uint32_t* largest) {
+  for (uint32_t i = 0; i < kLanes; i += 4)
+    std::fill_n(largest + i, 4, std::max({values[i], values[i + 1], values[i + 2], values[i + 3]}));
+}
+
 void find(const uint32_t* pixels, const ProbeTable& table, uint32_t absent, uint32_t* values,
           uint32_t* largest) {
   for (uint32_t i = 0; i < kLanes; ++i) {
     const uint32_t at = table.bucket(pixels[i]);
     values[i] = table.colors[at] == pixels[i] ? table.values[at] : absent;
   }
-  for (uint32_t i = 0; i < kLanes; i += 4)
-    std::fill_n(largest + i, 4, std::max({values[i], values[i + 1], values[i + 2], values[i + 3]}));
+  fill_largest(values, largest);
+}
+
+bool split(const uint32_t* pixels, FewColors& out) {
+  out.count = 0;
+  for (uint64_t left = ~uint64_t{0}; left != 0;) {
+    const auto covered = static_cast<uint32_t>(kLanes - std::popcount(left));
+    if (out.count == FewColors::kMost || covered < out.count * FewColors::kPixelsPerColor) return false;
+    const uint32_t color = pixels[std::countr_zero(left)];
+    uint64_t places = 0;
+    for (uint32_t i = 0; i < kLanes; ++i) places |= uint64_t{pixels[i] == color} << i;
+    out.colors[out.count] = color;
+    out.places[out.count++] = places;
+    left &= ~places;
+  }
+  return true;
+}
+
+void find_few(const uint32_t*, const FewColors& few, const uint32_t* few_values, uint32_t* values,
+              uint32_t* largest) {
+  for (uint32_t n = 0; n < few.count; ++n)
+    for (uint32_t i = 0; i < kLanes; ++i)
+      if ((few.places[n] >> i & 1) != 0) values[i] = few_values[n];
+  fill_largest(values, largest);
 }
 
 uint32_t width_sum(const uint32_t* largest, uint32_t absent, uint32_t raw_bits) {
@@ -34,6 +68,18 @@ uint32_t width_sum(const uint32_t* largest, uint32_t absent, uint32_t raw_bits) 
   for (uint32_t i = 0; i < kLanes; ++i)
     bits += largest[i] == absent ? raw_bits : static_cast<uint32_t>(std::bit_width(largest[i]));
   return bits;
+}
+
+void pack(const uint32_t* indices, const uint32_t* largest, uint32_t absent, uint32_t* packed,
+          uint32_t* widths) {
+  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+    const uint32_t top = largest[sub * kSubBlockPixels];
+    const uint32_t width = top == absent ? 0 : static_cast<uint32_t>(std::bit_width(top));
+    widths[sub] = top == absent ? kRawWidth : width;
+    packed[sub] = 0;
+    for (uint32_t i = 0; i < kSubBlockPixels; ++i)
+      packed[sub] = packed[sub] << width | indices[sub * kSubBlockPixels + i];
+  }
 }
 
 uint32_t count_below(const uint32_t* largest, uint32_t limit) {
@@ -111,8 +157,9 @@ void widen_bytes(const uint32_t* top_left, uint32_t stride, int16_t* samples) {
 }  // namespace
 
 const Kernels& scalar_kernels() {
-  static const Kernels kScalar = {"scalar", load_traversal, find,        width_sum,  count_below,
-                                  members,  ras_code_bits,  replace_row, widen_bytes};
+  static const Kernels kScalar = {"scalar",      load_traversal, is_solid,   find,        split,
+                                  find_few,      width_sum,      pack,       count_below, members,
+                                  ras_code_bits, replace_row,    widen_bytes};
   return kScalar;
 }
 

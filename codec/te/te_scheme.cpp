@@ -33,7 +33,7 @@ class TeEncoder final : public BlockEncoder {
   TeEncoder(const SchemeSpec&, const FormatTraits& format, const ModelOptions&)
       : pixel_bits_(format.pixel_bits) {}
 
-  SchemeNeeds needs() const override { return {}; }
+  SchemeNeeds needs() const override { return {.whole_frame = true, .place = true}; }
   void begin_frame(const FrameContext& frame) override {
     std::swap(now_, before_);
     if (frame.ordinal == 0) before_.clear();
@@ -62,7 +62,7 @@ class TeEncoder final : public BlockEncoder {
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     csb.put(written(block), 1);
-    if (written(block)) write_raw_block(block.block, pixel_bits_, payload);
+    if (written(block)) write_raw_block(block.pixels, pixel_bits_, payload);
   }
   void account(const BlockContext& block, uint32_t, SchemeStatistics& statistics) const override {
     const bool first_of_tile = block.bx % kTileBlocks == 0 && block.by % kTileBlocks == 0;

@@ -18,6 +18,10 @@ class PixelPlane {
   /// it held before; of no meaning if that was a frame of another size or format, or none. Precondition: 1 ≤
   /// width, height ≤ kMaxSurfaceSide and a modelled format.
   uint64_t assign(const SurfaceView& view);
+  /// The same in steps: takes on the shape of `view`; then its rows, in ranges that begin and end at a
+  /// multiple of 8 or at the bottom of the padded plane.
+  void reshape(const SurfaceView& view);
+  uint64_t assign_rows(const SurfaceView& view, uint32_t begin, uint32_t end);
 
   uint32_t width() const { return width_; }
   uint32_t height() const { return height_; }

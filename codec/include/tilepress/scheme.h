@@ -21,15 +21,16 @@ constexpr uint32_t kNotInCcd = 0xFFFF;
 
 /// What a scheme may know when a frame begins.
 struct FrameContext {
-  const PixelPlane& plane;   ///< the frame
-  uint64_t ordinal = 0;      ///< 0 = first frame of the surface
+  const PixelPlane&
+      plane;             ///< the frame; its pixels are there yet only for schemes that need the whole frame
+  uint64_t ordinal = 0;  ///< 0 = first frame of the surface
   const Ccd* ccd = nullptr;  ///< CCD in force for the scheme's FVC configuration; null while none exists
 };
 
 /// One block and what the engine has already found out about it for all schemes. Arrays are in traversal
 /// order (see block.h), 64 long: position 4s + i is pixel i of sub-block s.
 struct BlockContext {
-  const Block& block;
+  const Block& block;                     ///< the block's pixels in raster order, for who needs them so
   uint32_t bx = 0, by = 0;                ///< block column and row
   const uint32_t* pixels = nullptr;       ///< the block's pixels
   bool uniform = false;                   ///< all pixels are equal
@@ -44,7 +45,11 @@ struct SchemeNeeds {
   bool ccd = false;
   bool ras = false;
   bool ras_ycocg = false;
-  bool first_frame = false;  ///< depends on the surface's first frame for ever
+  bool first_frame = false;       ///< depends on the surface's first frame for ever
+  bool whole_frame = false;       ///< begin_frame() reads the pixels of the plane
+  bool place = false;             ///< what a block takes depends on where it lies, not on its pixels alone
+  bool raster = false;            ///< measure() reads BlockContext::block
+  bool raster_to_encode = false;  ///< encode() reads BlockContext::block
 };
 
 /// Encoder side. begin_frame() once per frame, then any block in any order.

@@ -44,6 +44,16 @@ struct SchemeStatistics {
   /// raw / (moved + extra): equal to rate() for schemes without further traffic.
   double rate_with_extra() const;
   SchemeStatistics& operator+=(const SchemeStatistics& other);
+  /// Adds the figures that blocks add one by one, `times` over.
+  void add(const SchemeStatistics& block, uint64_t times) {
+    payload_bits += block.payload_bits * times;
+    bursts += block.bursts * times;
+    extra_bits += block.extra_bits * times;
+    vdcp_blocks += block.vdcp_blocks * times;
+    ras_blocks += block.ras_blocks * times;
+    checked_blocks += block.checked_blocks * times;
+    mismatched_blocks += block.mismatched_blocks * times;
+  }
 };
 
 /// One frame of one surface.
