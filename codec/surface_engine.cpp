@@ -147,6 +147,7 @@ void SurfaceEngine::State::begin_frame(FrameStatistics& out) {
     if (collector.fast) collector.fast->reset();
   }
   last.solid = false;
+  if (options.frame_metrics) meter.begin_frame(size_t{now.width()} * now.height());
   out.schemes.assign(lanes.size(), SchemeStatistics{});
   if (block_bits != nullptr) {
     block_bits->blocks_x = now.blocks_x();
@@ -180,6 +181,7 @@ void SurfaceEngine::State::settle_run() {
   if (run.count == 0) return;
   for (Collector& collector : collectors)
     if (collector.collecting && collector.fast) collector.fast->see_run(run.color, run.count);
+  if (options.frame_metrics) meter.see_run(run.color, run.count);
   run.count = 0;
 }
 
@@ -205,12 +207,14 @@ void SurfaceEngine::State::collect(const BlockContext& block) {
       if (kTraversal[i] % 8 < width && kTraversal[i] / 8 < height) inside[count++] = block.pixels[i];
     pixels = inside;
   }
+  const bool whole_few = is_few && count == kBlockPixels;
+  if (options.frame_metrics) whole_few ? meter.see_block(few) : meter.see_all(pixels, count);
   for (Collector& collector : collectors) {
     if (!collector.collecting) continue;
     if (!collector.fast)
       collector.fvc.see_all(pixels, count);
     else if (count == kBlockPixels)
-      (is_few && collector.fast->see_block(few)) || (collector.fast->see_block(pixels), true);
+      (whole_few && collector.fast->see_block(few)) || (collector.fast->see_block(pixels), true);
     else
       for (uint32_t i = 0; i < count; ++i) collector.fast->see_run(pixels[i], 1);
   }

@@ -17,6 +17,8 @@ class ColorHistogram {
   /// Empties it. The table will have at most `largest_size` slots (a power of two) and be at most three
   /// quarters full.
   void clear(size_t largest_size);
+  /// Gives its memory back; clear() before it is used again.
+  void release() { table_ = {}; }
   /// False: no room for another colour; the counts are not complete any more.
   bool add(uint32_t color, uint32_t count);
   /// 0 if the colour does not occur.

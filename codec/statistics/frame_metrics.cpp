@@ -2,7 +2,7 @@
 #include "statistics/frame_metrics.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <utility>
 
 #include "dcp/fvc.h"
@@ -10,56 +10,58 @@
 namespace tilepress {
 namespace {
 
-/// With fewer pixels to a colour, distributing them is quicker than hashing the colours.
-constexpr size_t kPixelsPerColor = 64;
-
-/// Slots for a frame of as many colours; two tables take an eighth of a raw frame of 4 bytes a pixel.
-size_t largest_table(const PixelPlane& frame) {
-  const size_t pixels = size_t{frame.width()} * frame.height();
-  return std::max<size_t>(1024, pixels * 2 / kPixelsPerColor);
+/// With fewer pixels to a colour, distributing them is quicker than hashing the colours: in large frames the
+/// table leaves the caches, in small ones going through all groups takes long.
+size_t pixels_per_color(size_t pixels) {
+  return pixels < 1u << 18 ? 12 : 64;
 }
 
-/// Takes runs of a colour together before they go to the large table: most colours come back soon.
-class RunCache {
- public:
-  explicit RunCache(ColorHistogram& out) : out_(out) {}
-  bool add(uint32_t color, uint32_t count) {
-    ColorHistogram::Entry& entry = entries_[(color * 0x9E3779B1u) >> 23];
-    if (entry.color == color) {
-      entry.count += count;
-      return true;
-    }
-    const bool room = entry.count == 0 || out_.add(entry.color, entry.count);
-    entry = {color, count};
-    return room;
-  }
-  bool flush() {
-    bool room = true;
-    for (ColorHistogram::Entry& entry : entries_)
-      if (entry.count != 0) room = room && out_.add(entry.color, entry.count);
-    return room;
-  }
-
- private:
-  ColorHistogram& out_;
-  std::array<ColorHistogram::Entry, 512> entries_{};
-};
+/// Slots for a frame of as many colours; two tables take an eighth of a raw frame of 4 bytes a pixel, or two
+/// thirds of a small one.
+size_t largest_table(size_t pixels) {
+  return std::max<size_t>(1024, pixels * 2 / pixels_per_color(pixels));
+}
 
 }  // namespace
 
-bool FrameMeter::count_colors(const PixelPlane& frame, ColorHistogram& out) {
-  out.clear(largest_table(frame));
-  RunCache cache(out);
-  for (uint32_t y = 0; y < frame.height(); ++y) {
-    const uint32_t* row = frame.row(y);
-    for (uint32_t x = 0; x < frame.width();) {
-      const uint32_t color = row[x], first = x;
-      while (++x < frame.width() && row[x] == color) {
-      }
-      if (!cache.add(color, x - first)) return false;
-    }
+bool FrameMeter::take(uint32_t color, uint32_t count) {
+  ColorHistogram::Entry& entry = recent_[(color * 0x9E3779B1u) >> 23];
+  if (entry.color == color) {
+    entry.count += count;
+    return true;
   }
-  return cache.flush();
+  const bool room = entry.count == 0 || now_.add(entry.color, entry.count);
+  entry = {color, count};
+  return room;
+}
+
+bool FrameMeter::flush() {
+  bool room = true;
+  for (ColorHistogram::Entry& entry : recent_) {
+    if (entry.count != 0) room = room && now_.add(entry.color, entry.count);
+    entry = {};
+  }
+  return room;
+}
+
+void FrameMeter::begin_frame(size_t pixels) {
+  std::swap(now_, before_);
+  counting_ = !many_;
+  if (counting_) now_.clear(largest_table(pixels));
+}
+
+void FrameMeter::see_all(const uint32_t* pixels, uint32_t count) {
+  for (uint32_t i = 0; counting_ && i < count;) {
+    const uint32_t first = i;
+    while (++i < count && pixels[i] == pixels[first]) {
+    }
+    see_run(pixels[first], i - first);
+  }
+}
+
+void FrameMeter::see_block(const FewColors& few) {
+  for (uint32_t n = 0; n < few.count; ++n)
+    see_run(few.colors[n], static_cast<uint32_t>(std::popcount(few.places[n])));
 }
 
 void FrameMeter::count_few(bool compare, const Fvc& fvc) {
@@ -86,24 +88,29 @@ FrameMetrics FrameMeter::measure(const PixelPlane& frame, std::optional<uint64_t
   const bool compare = changed.has_value();
   profile_.clear();
   change_ = {};
-  std::swap(now_, before_);
-  if (!many_ && count_colors(frame, now_)) {
+  const bool counted = flush() && counting_;
+  if (counted)
     count_few(compare, fvc);
-    hashed_ = true;
-  } else {
+  else
     count_many(frame, compare, fvc);
-    hashed_ = false;
-  }
+  hashed_ = counted;
   profile_.close();
   const size_t pixels = size_t{frame.width()} * frame.height();
   const auto share = [pixels](uint64_t part) {
     return static_cast<double>(part) / static_cast<double>(pixels);
   };
   // Some way below the limit before it goes back: hashing and distributing by turns costs both.
-  many_ = profile_.colors() * kPixelsPerColor * (many_ ? 2 : 1) > pixels;
+  many_ = profile_.colors() * pixels_per_color(pixels) * (many_ ? 2 : 1) > pixels;
   if (!many_ && !hashed_) {
-    hashed_ = count_colors(frame, now_);
+    now_.clear(largest_table(pixels));
+    counting_ = true;
+    for (uint32_t y = 0; y < frame.height(); ++y) see_all(frame.row(y), frame.width());
+    hashed_ = flush() && counting_;
     many_ = !hashed_;
+  }
+  if (many_ && !hashed_) {
+    now_.release();
+    before_.release();
   }
 
   FrameMetrics metrics;

@@ -1,9 +1,11 @@
 // Frame metrics: what is read off the colour histograms of a frame and the one before (spec §8).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
+#include "simd/kernels.h"
 #include "statistics/color_distribution.h"
 #include "statistics/color_histogram.h"
 #include "tilepress/plane.h"
@@ -17,19 +19,32 @@ class Fvc;
 /// many are distributed. Either way the colours are kept for the next frame.
 class FrameMeter {
  public:
-  /// Measures `frame`. `changed`: its pixels that differ from those of the frame measured last, which had the
-  /// same size; none if there was no such frame. `fvc` is the default FVC, fed with `frame`.
+  /// Before the first pixel of a frame of `pixels`, all of which will be seen, in any order, each once.
+  void begin_frame(size_t pixels);
+  /// `count` pixels of one colour.
+  void see_run(uint32_t color, uint32_t count) {
+    if (counting_ && !take(color, count)) counting_ = false;
+  }
+  void see_all(const uint32_t* pixels, uint32_t count);
+  void see_block(const FewColors& few);
+  /// Measures `frame`, which has been seen. `changed`: its pixels that differ from those of the frame
+  /// measured last, which had the same size; none if there was no such frame. `fvc` is the default FVC, fed
+  /// with `frame`.
   FrameMetrics measure(const PixelPlane& frame, std::optional<uint64_t> changed, const Fvc& fvc);
 
  private:
-  /// False: no room for all colours.
-  bool count_colors(const PixelPlane& frame, ColorHistogram& out);
+  /// False: no room.
+  bool take(uint32_t color, uint32_t count);
+  bool flush();
   void count_few(bool compare, const Fvc& fvc);
   void count_many(const PixelPlane& frame, bool compare, const Fvc& fvc);
 
   ColorHistogram now_, before_;
-  bool hashed_ = false;  ///< the colours measured last are in now_; otherwise distributed
-  bool many_ = false;    ///< colours are to be expected
+  /// Most colours come back soon: here they wait before they go to the large table.
+  std::array<ColorHistogram::Entry, 512> recent_{};
+  bool counting_ = false;  ///< into now_
+  bool hashed_ = false;    ///< the colours measured last are in now_; otherwise distributed
+  bool many_ = false;      ///< colours are to be expected
   ColorDistribution distribution_;
   CountProfile profile_;
   ColorDistribution::Change change_;
