@@ -22,7 +22,7 @@ Loaded load() {
     out.error = std::string(kName) + ": not found, looked for " + looked;
     return out;
   }
-  void* module = dlopen(path->c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* module = dlopen(path->c_str(), RTLD_LAZY | RTLD_LOCAL);
   using Function = const ImageLibrary* (*)();
   const auto function =
       module == nullptr ? nullptr : reinterpret_cast<Function>(dlsym(module, "tilepress_image_library"));
