@@ -119,7 +119,7 @@ static void format(char** bits) {
 
 /* As Chromium's allocator: it ends the process when asked for a large alignment. */
 extern void* __libc_memalign(size_t alignment, size_t size);
-void* aligned_alloc(size_t alignment, size_t size) {
+__attribute__((visibility("default"))) void* aligned_alloc(size_t alignment, size_t size) {
   if (alignment > 1 << 19) abort();
   return __libc_memalign(alignment, size);
 }

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""Runs real programs without and with the shim under an X server of its own and prints a table.
+"""Runs real programs with and without the shim under an X server of its own and prints a table.
 
-  run_programs.py [--tilepress PATH] [--seconds N] [--via auto|preload|glvnd] [NAME...]
+  run_programs.py [--tilepress PATH] [--frames N] [--seconds S] [--via auto|preload|glvnd] [--no-overhead] [NAME...]
 
-Programs that are not installed are skipped with the package to install. Exit status 1 if a program that runs
-without the shim ends otherwise with it, or if fewer frames were captured than presented.
+A program that does not end is sent SIGTERM once N frames (100) are captured or S seconds (20) are over; without the shim
+it runs as long as it did with it. The overhead is the ratio of mean frame times of two more runs, one that captures with
+the default schemes and one that only counts. Programs that are not installed are skipped with the package to install.
+Exit status 1 if a program that runs without the shim ends otherwise with it, or if fewer frames were captured than
+presented.
 """
 import argparse
+import csv
 import json
 import os
 import pathlib
@@ -38,21 +42,45 @@ def x_server():
         return server, ":" + pipe.readline().strip()
 
 
-def run_for(command, seconds, environment, log):
-    """Exit status of the command, ended by SIGTERM after `seconds`; a signal counts as 128 + its number."""
+def run_until(command, seconds, environment, log, enough=lambda: False):
+    """Runs the command, sends it SIGTERM after `seconds`, or earlier when there is enough. Its exit status (a signal
+    counts as 128 + its number) and the seconds it ran."""
+    begin = time.monotonic()
     with open(log, "wb") as file:
         process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=file, stderr=file,
                                    start_new_session=True)
+    while process.poll() is None and time.monotonic() < begin + seconds and not enough():
+        time.sleep(0.2)
+    elapsed = time.monotonic() - begin
+    if process.poll() is None:
+        process.terminate()  # the program alone: what it has started is its own affair
     try:
-        process.wait(seconds)
+        process.wait(15)
     except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGTERM)
+        pass
     try:
-        process.wait(10)
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-    return process.returncode if process.returncode >= 0 else 128 - process.returncode
+        os.killpg(process.pid, signal.SIGKILL)  # what it has left behind
+    except ProcessLookupError:
+        pass
+    process.wait()
+    return (process.returncode if process.returncode >= 0 else 128 - process.returncode), elapsed
+
+
+def rows_in(output):
+    return sum(path.read_bytes().count(b"\n") - 1 for path in pathlib.Path(output).glob("*/frames.csv"))
+
+
+def overhead(arguments, command, seconds, environment, output, log):
+    """The frame-time ratio as text, and the exit statuses of both runs."""
+    run_until([arguments.tilepress, "run", "-q", "--measure-overhead", "--rounds", "1", "--seconds", f"{seconds:.1f}", "--via",
+               arguments.via, "-o", output, "--"] + command, 4 * seconds + 60, environment, log)
+    try:
+        with open(f"{output}/overhead.csv", newline="", encoding="utf-8") as file:
+            without, with_shim = sorted(csv.DictReader(file), key=lambda row: row["shim"], reverse=True)
+        return f"{float(with_shim['ratio_mean']):.2f} ({int(with_shim['mean_ns']) / 1e6:.1f} / " \
+               f"{int(without['mean_ns']) / 1e6:.1f} ms)"
+    except (OSError, ValueError):
+        return "-"
 
 
 def harvest(output):
@@ -76,7 +104,9 @@ def harvest(output):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tilepress", default="tilepress")
-    parser.add_argument("--seconds", type=float, default=5)
+    parser.add_argument("--frames", type=int, default=100)
+    parser.add_argument("--seconds", type=float, default=20)
+    parser.add_argument("--no-overhead", action="store_true")
     parser.add_argument("--via", default="auto")
     parser.add_argument("names", nargs="*")
     arguments = parser.parse_args()
@@ -87,27 +117,30 @@ def main():
     os.environ["PATH"] = environment["PATH"]
     environment.pop("WAYLAND_DISPLAY", None)
     failures = 0
-    print("| program | frames | captured | status without / with | readback ms | surfaces | via | verdict |")
-    print("|---|---|---|---|---|---|---|---|")
+    print("| program | frames | captured | status without / with | readback ms | frame-time ratio | surfaces | via | verdict |")
+    print("|---|---|---|---|---|---|---|---|---|")
     try:
         for name, packages, command in programs(scratch):
             if arguments.names and name not in arguments.names:
                 continue
             program = next(word for word in command if word != "env" and "=" not in word)
             if shutil.which(program) is None:
-                print(f"| {name} | | | | | | | skipped: needs {packages} |", flush=True)
+                print(f"| {name} | | | | | | | | skipped: needs {packages} |", flush=True)
                 continue
-            without = run_for(command, arguments.seconds, environment, f"{scratch}/{name}.without")
             output = f"{scratch}/{name}"
             shimmed = [arguments.tilepress, "run", "-q", "-s", "vdcp", "--via", arguments.via, "-o", output, "--"] + command
-            status = run_for(shimmed, arguments.seconds + 2, environment, f"{scratch}/{name}.with")
+            status, elapsed = run_until(shimmed, arguments.seconds, environment, f"{scratch}/{name}.with",
+                                        lambda: rows_in(output) >= arguments.frames)
+            without, _ = run_until(command, elapsed, environment, f"{scratch}/{name}.without")
             totals = harvest(output)
+            ratio = "" if arguments.no_overhead else overhead(arguments, command, max(5, elapsed), environment, output + ".overhead",
+                                                              f"{scratch}/{name}.overhead-log")
             # Frames in the queue when a signal ends a program are lost: at most three per process.
             lost = totals["seen"] - totals["rows"]
             good = totals["rows"] > 0 and lost <= 3 * totals["runs"] and status == without
             failures += not good
             mean = totals["readback_ms"] / max(1, totals["rows"])
-            print(f"| {name} | {totals['seen']} | {totals['rows']} | {without} / {status} | {mean:.2f} | "
+            print(f"| {name} | {totals['seen']} | {totals['rows']} | {without} / {status} | {mean:.2f} | {ratio} | "
                   f"{', '.join(sorted(totals['sizes']))} | {', '.join(sorted(totals['via']))} | "
                   f"{'good' if good else 'LOOK: ' + scratch} |", flush=True)
     finally:
