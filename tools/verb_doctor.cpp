@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include "command_line.h"
 #include "gl_probe.h"
 #include "shim_path.h"
+#include "shim_self_test.h"
 #include "verb.h"
 
 namespace tilepress {
@@ -78,6 +80,15 @@ void add_gl(std::vector<Finding>& findings) {
                                                        software ? "software rendering" : "a GPU")
                                          : gl.failure,
                       "libgl1-mesa-dri"});
+  const size_t mesa = gl.version.find("Mesa ");
+  if (mesa != std::string::npos)
+    findings.push_back({"Mesa", true, false, gl.version.substr(mesa + std::strlen("Mesa ")), ""});
+  std::error_code code;
+  std::string nodes;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/dri", code))
+    nodes += (nodes.empty() ? "" : ", ") + entry.path().string();
+  findings.push_back({"GPU devices", !nodes.empty(), false,
+                      nodes.empty() ? "none in /dev/dri: Mesa renders in software" : nodes, ""});
 }
 
 void add_displays(std::vector<Finding>& findings) {
@@ -107,12 +118,21 @@ void add_replay(std::vector<Finding>& findings) {
   findings.push_back(find_tool("apitrace", "records traces", "apitrace"));
 }
 
+/// Whether the shim really gets into a program and captures it, by each road.
+void add_self_tests(std::vector<Finding>& findings, const std::string& shim) {
+  const SelfTestResult preload = test_shim(shim, ShimRoad::kPreload);
+  findings.push_back({"capture", preload.passed, true, "preloaded: " + preload.detail, ""});
+  const SelfTestResult glvnd = test_shim(shim, ShimRoad::kGlvnd);
+  findings.push_back({"capture", glvnd.passed, false, "through libglvnd: " + glvnd.detail, ""});
+}
+
 std::vector<Finding> examine() {
   std::vector<Finding> findings;
   std::string looked;
   const auto shim = find_shim("libtilepress-preload.so", looked);
   findings.push_back({"shim", shim.has_value(), true, shim ? *shim : "looked at " + looked, ""});
   add_gl(findings);
+  if (shim) add_self_tests(findings, *shim);
   add_displays(findings);
   findings.push_back(find_tool("Xvfb", "an X server without a screen", "xvfb"));
   findings.push_back(find_tool("xvfb-run", "runs a program in one", "xvfb"));

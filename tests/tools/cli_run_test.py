@@ -3,6 +3,7 @@
 
 Usage: cli_run_test.py TILEPRESS GOLDEN_FOLDER [TEST...]"""
 import glob
+import json
 import os
 import signal
 import subprocess
@@ -96,6 +97,17 @@ class BadInput(CliCase):
         self.assertIn("eglSwapBuffers", lines[1])
         self.assertIn("seen: no process asked for any of them", done.stderr.decode())
         self.assert_absent("out")
+
+
+class Doctor(CliCase):
+    def test_the_shim_is_tried_by_each_road(self):
+        done = self.run_command("doctor", "--json", env={"DISPLAY": ""})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        findings = json.loads(done.stdout)
+        tried = [finding for finding in findings if finding["what"] == "capture"]
+        self.assertEqual([finding["found"] for finding in tried], [True, True], tried)
+        self.assertTrue(tried[0]["detail"].startswith("preloaded: 3 frames"), tried)
+        self.assertRegex([finding["detail"] for finding in findings if finding["what"] == "Mesa"][0], r"^[0-9.]+")
 
 
 class Captures(CliCase):
