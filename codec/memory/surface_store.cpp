@@ -56,6 +56,9 @@ void SurfaceStore::begin_frame(const SchemeSpec& spec, const ModelOptions& optio
   out.burst_bits = options.burst_bits;
   out.csb_bits = encoder.csb_bits();
   out.table_bits = encoder.palette_bits();
+  blocks_ = out.blocks();
+  blocks_x_ = out.blocks_x();
+  slot_bytes_ = out.slot_bytes();
   // Slots are kept from the frame before: put() empties what a block used then and does not use now.
   if (out.payload.size() != out.blocks() * out.slot_bytes() || out.block_bits.size() != out.blocks()) {
     out.payload.assign(out.blocks() * out.slot_bytes(), 0);
@@ -71,9 +74,9 @@ void SurfaceStore::begin_frame(const SchemeSpec& spec, const ModelOptions& optio
 
 uint32_t SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& block) {
   CompressedSurface& out = *surface_;
-  last_ = uint64_t{block.by} * out.blocks_x() + block.bx;
-  const auto slot = std::span(out.payload).subspan(last_ * out.slot_bytes(), out.slot_bytes());
-  if (last_ + 1 < out.blocks()) __builtin_prefetch(slot.data() + out.slot_bytes(), 1);  // most often the next
+  last_ = uint64_t{block.by} * blocks_x_ + block.bx;
+  const auto slot = std::span(out.payload).subspan(last_ * slot_bytes_, slot_bytes_);
+  if (last_ + 1 < blocks_) __builtin_prefetch(slot.data() + slot_bytes_, 1);  // most often the next
   BitWriter payload(slot);
   BitWriter csb(last_csb_);
   encoder.encode(block, payload, csb);
@@ -91,13 +94,12 @@ uint32_t SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& bloc
 void SurfaceStore::put_again(uint32_t bx, uint32_t by) {
   constexpr size_t kLine = 64;  // slots are so many bytes, or a multiple
   CompressedSurface& out = *surface_;
-  const uint64_t number = uint64_t{by} * out.blocks_x() + bx;
+  const uint64_t number = uint64_t{by} * blocks_x_ + bx;
   const uint16_t payload_bits = out.block_bits[last_];
   const size_t most_bytes = (std::max(payload_bits, out.block_bits[number]) + 7u) / 8;
   // Whole lines: what lies behind a block's payload is zero in either slot.
   for (size_t at = 0; at < most_bytes; at += kLine)
-    std::memcpy(&out.payload[number * out.slot_bytes() + at], &out.payload[last_ * out.slot_bytes() + at],
-                kLine);
+    std::memcpy(&out.payload[number * slot_bytes_ + at], &out.payload[last_ * slot_bytes_ + at], kLine);
   out.block_bits[number] = payload_bits;
   merge_bits(last_csb_, out.csb_bits, out.csb, number * out.csb_bits);
 }

@@ -22,6 +22,8 @@ class SurfaceStore {
  private:
   static constexpr uint32_t kMaxCsbBytes = 32;
   CompressedSurface* surface_ = nullptr;
+  uint64_t blocks_ = 0, blocks_x_ = 0;  ///< of the surface; slot_bytes_ too: divisions otherwise made anew
+  size_t slot_bytes_ = 0;
   uint64_t last_ = 0;                             ///< number of the block put last by put()
   std::array<uint8_t, kMaxCsbBytes> last_csb_{};  ///< its CSB bits
 };
