@@ -7,6 +7,8 @@
 namespace tilepress {
 namespace {
 
+constexpr const char* kFramesText = "Only these frames, as 0-99,200 (default: every frame)";
+
 void set_or_throw(RunOptions& options, const std::string& name, const std::string& value) {
   std::string error;
   if (!set_run_option(options, name, value, error)) throw CLI::ValidationError("--" + error);
@@ -22,10 +24,7 @@ CLI::Option* add_text(CLI::App& app, RunOptions& options, const std::string& fla
 
 }  // namespace
 
-void add_run_options(CLI::App& app, RunOptions& options) {
-  if (options.output.empty()) options.output = "tilepress-out";
-  add_text(app, options, "-o,--output", "output", "DIR",
-           "Folder for the results (default: " + options.output + ")");
+void add_model_options(CLI::App& app, RunOptions& options, const std::string& scheme_text) {
   app.add_option_function<std::vector<std::string>>(
          "-s,--scheme",
          [&options](const std::vector<std::string>& specs) {
@@ -33,7 +32,7 @@ void add_run_options(CLI::App& app, RunOptions& options) {
            for (const std::string& spec : specs) list += (list.empty() ? "" : " ") + spec;
            set_or_throw(options, "scheme", list);
          },
-         "Scheme as name:key=value,... ; repeat for more (default: all seven; see tilepress schemes)")
+         scheme_text)
       ->type_name("SPEC")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -41,9 +40,15 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   add_text(app, options, "--tile", "tile", "N",
            "Side of a render tile in pixels, a multiple of 8 (default: 32)");
   add_text(app, options, "--burst", "burst", "BITS", "DRAM transfer unit, a power of two (default: 128)");
-  add_text(app, options, "--frames", "frames", "RANGES",
-           "Only these frames, as 0-99,200 (default: every frame)");
+  add_text(app, options, "--frames", "frames", "RANGES", kFramesText);
   add_text(app, options, "--every", "every", "N", "Only every N-th frame");
+}
+
+void add_run_options(CLI::App& app, RunOptions& options) {
+  if (options.output.empty()) options.output = "tilepress-out";
+  add_text(app, options, "-o,--output", "output", "DIR",
+           "Folder for the results (default: " + options.output + ")");
+  add_model_options(app, options);
   app.add_flag_callback(
       "--verify", [&options] { options.model.verify = true; },
       "Encode, decode and compare every block; a mismatch is exit 1");
@@ -59,6 +64,32 @@ void add_on_full_option(CLI::App& app, RunOptions& options) {
   add_text(app, options, "--on-full", "on-full", "block|drop",
            "When frames come faster than they are compressed: hold the program, or drop and count (default: "
            "block)");
+}
+
+void add_size_option(CLI::App& app, const std::string& name, std::optional<FrameSize>& size,
+                     const std::string& text) {
+  app.add_option_function<std::string>(
+         "--" + name,
+         [&size, name](const std::string& value) {
+           size = parse_frame_size(value);
+           if (!size)
+             throw CLI::ValidationError("--" + name + " " + value + ": not WxH with sides in 1..65535");
+         },
+         text)
+      ->type_name("WxH");
+}
+
+void add_frames_option(CLI::App& app, FrameSet& frames) {
+  app.add_option_function<std::string>(
+         "--frames",
+         [&frames](const std::string& value) {
+           std::string error;
+           const auto set = FrameSet::parse(value, error);
+           if (!set) throw CLI::ValidationError("--frames " + value + ": " + error);
+           frames = *set;
+         },
+         kFramesText)
+      ->type_name("RANGES");
 }
 
 }  // namespace tilepress

@@ -31,6 +31,7 @@ constexpr const char* kExamples =
 
 struct BenchOptions {
   RunOptions run;
+  std::string csv_path;  ///< empty = none
   std::vector<std::string> images;
   std::optional<FrameSize> size;
   uint32_t rounds = 7;
@@ -97,19 +98,13 @@ std::optional<int> parse(int argc, char** argv, BenchOptions& options) {
   CLI::App app(
       "Times each scheme beside memcpy and LZ4. A table goes to standard error; -o FILE.csv keeps it.");
   app.footer(kExamples);
-  add_run_options(app, options.run);
+  add_model_options(app, options.run);
+  app.add_option("-o,--output", options.csv_path, "CSV file; - for standard output (default: none)")
+      ->type_name("FILE");
   app.add_option("IMAGE", options.images, "What OpenImageIO reads (8 bits a channel), or raw .rgba files")
       ->type_name("...")
       ->required();
-  app.add_option_function<std::string>(
-         "--size",
-         [&](const std::string& text) {
-           options.size = parse_frame_size(text);
-           if (!options.size)
-             throw CLI::ValidationError("--size " + text + ": not WxH with sides in 1..65535");
-         },
-         "Size of raw .rgba frames")
-      ->type_name("WxH");
+  add_size_option(app, "size", options.size, "Size of raw .rgba frames");
   app.add_option("--rounds", options.rounds, "Rounds (default: 7)")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
@@ -144,8 +139,8 @@ int verb_bench(int argc, char** argv) {
     print_table(set.name, frames, rows);
     append_csv(set.name, rows, csv);
   }
-  if (!options.run.output.empty() && !write_csv(options.run.output, csv))
-    return fail(kExitFailed, options.run.output + ": cannot be written");
+  if (!options.csv_path.empty() && !write_csv(options.csv_path, csv))
+    return fail(kExitFailed, options.csv_path + ": cannot be written");
   return kExitDone;
 }
 

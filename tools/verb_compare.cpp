@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "common_options.h"
 #include "compare/comparison_text.h"
 #include "report/run_batch.h"
 #include "verb.h"
@@ -82,16 +83,7 @@ int verb_compare(int argc, char** argv) {
         return kFormats.count(name) > 0 ? "" : "must be text, markdown or csv, not '" + name + "'";
       });
   app.add_flag("--per-frame", options.per_frame, "A line for every frame and scheme");
-  app.add_option_function<std::string>(
-         "--frames",
-         [&](const std::string& text) {
-           std::string error;
-           const auto set = FrameSet::parse(text, error);
-           if (!set) throw CLI::ValidationError("--frames: " + error);
-           options.frames = *set;
-         },
-         "Only these frames, as 0-99,200 (default: every frame)")
-      ->type_name("RANGES");
+  add_frames_option(app, options.frames);
   if (const auto stop = parse_command_line(app, argc, argv)) return *stop;
 
   const ComparisonFormat format = kFormats.at(options.format);

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "command_line.h"
+#include "common_options.h"
 #include "composition.h"
 #include "image_frames.h"
 #include "packed_file.h"
@@ -241,29 +242,13 @@ int verb_compose(int argc, char** argv) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);
-  app.add_option_function<std::string>(
-         "--screen",
-         [&](const std::string& text) {
-           options.screen = parse_frame_size(text);
-           if (!options.screen) throw CLI::ValidationError("--screen " + text + ": not WxH");
-         },
-         "Size of the screen (default: what the surfaces reach)")
-      ->type_name("WxH");
+  add_size_option(app, "screen", options.screen, "Size of the screen (default: what the surfaces reach)");
   app.add_flag("--skip-hidden", options.composition.skip_hidden,
                "Leave out blocks that surfaces without alpha hide");
   app.add_option("--refresh", options.refresh_hz, "Frames shown a second (default: 60)")
       ->type_name("HZ")
       ->check(CLI::Range(0.001, 1e6));
-  app.add_option_function<std::string>(
-         "--frames",
-         [&](const std::string& text) {
-           std::string error;
-           const auto frames = FrameSet::parse(text, error);
-           if (!frames) throw CLI::ValidationError("--frames " + text + ": " + error);
-           options.frames = *frames;
-         },
-         "Only these frames, as 0-99,200 (default: every frame)")
-      ->type_name("RANGES");
+  add_frames_option(app, options.frames);
   add_read_options(app, options.composition.read);
   app.add_option("-o,--output", options.output,
                  "CSV file, a row per frame and surface; - for standard output")

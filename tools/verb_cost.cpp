@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command_line.h"
-#include "image_frames.h"
+#include "common_options.h"
 #include "tilepress/cost_model.h"
 #include "verb.h"
 
@@ -119,16 +119,8 @@ int verb_cost(int argc, char** argv) {
   app.add_option("--sample", options.sample, "Every n-th pixel enters the FVC (default: 1)")
       ->type_name("N")
       ->check(CLI::Range(1, 0x7FFFFFFF));
-  app.add_option_function<std::string>(
-         "--size",
-         [&](const std::string& text) {
-           const auto size = parse_frame_size(text);
-           if (!size) throw CLI::ValidationError("--size " + text + ": not WxH with sides in 1..65535");
-           options.load.width = size->width;
-           options.load.height = size->height;
-         },
-         "Size of the surface (default: 1920x1080)")
-      ->type_name("WxH");
+  std::optional<FrameSize> size;
+  add_size_option(app, "size", size, "Size of the surface (default: 1920x1080)");
   app.add_option("--pixel-bits", options.load.pixel_bits, "16 or 32 (default: 32)")
       ->type_name("BITS")
       ->check(CLI::IsMember({16, 32}));
@@ -154,6 +146,10 @@ int verb_cost(int argc, char** argv) {
       ->check(CLI::Range(0.0, 1e9));
   app.add_flag("--json", options.json, "As JSON");
   if (auto status = parse_command_line(app, argc, argv)) return *status;
+  if (size) {
+    options.load.width = size->width;
+    options.load.height = size->height;
+  }
   options.json ? print_json(options) : print_text(options);
   return kExitDone;
 }

@@ -184,15 +184,7 @@ int parse(int argc, char** argv, FramesOptions& options, std::optional<int>& sta
                  "What OpenImageIO reads (8 bits a channel), raw .rgba files, or - for raw frames")
       ->type_name("...")
       ->required();
-  app.add_option_function<std::string>(
-         "--size",
-         [&](const std::string& text) {
-           options.size = parse_frame_size(text);
-           if (!options.size)
-             throw CLI::ValidationError("--size " + text + ": not WxH with sides in 1..65535");
-         },
-         "Size of raw .rgba frames")
-      ->type_name("WxH");
+  add_size_option(app, "size", options.size, "Size of raw .rgba frames");
   app.add_option("-j,--jobs", options.jobs, "Threads (default: 1); the results are the same for any number")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));

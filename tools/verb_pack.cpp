@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "command_line.h"
+#include "common_options.h"
 #include "image_frames.h"
 #include "packed_file.h"
 #include "tilepress/run_options.h"
@@ -174,38 +175,15 @@ int verb_pack(int argc, char** argv) {
   PackOptions options;
   options.run.output = "-";
   set_run_option(options.run, "scheme", "vdcp", options.output);
-  const auto add_text = [&](const char* flags, const char* name, const char* metavar, const char* text) {
-    return app
-        .add_option_function<std::string>(
-            flags,
-            [&options, name](const std::string& value) {
-              std::string error;
-              if (!set_run_option(options.run, name, value, error)) throw CLI::ValidationError("--" + error);
-            },
-            text)
-        ->type_name(metavar);
-  };
   app.add_option("IMAGE", options.images, "What OpenImageIO reads (8 bits a channel), or raw files")
       ->type_name("...")
       ->required();
   app.add_option("-o,--output", options.output, "File to write")->type_name("FILE")->required();
-  add_text("-s,--scheme", "scheme", "SPEC", "One scheme as name:key=value,... (default: vdcp)");
-  add_text("--tile", "tile", "N", "Side of a render tile in pixels, a multiple of 8 (default: 32)");
-  add_text("--burst", "burst", "BITS", "DRAM transfer unit, a power of two (default: 128)");
-  add_text("--frames", "frames", "RANGES", "Only these frames, as 0-99,200 (default: every frame)");
-  add_text("--every", "every", "N", "Only every N-th frame");
+  add_model_options(app, options.run, "One scheme as name:key=value,... (default: vdcp)");
   app.add_flag_callback(
       "--verify", [&] { options.run.model.verify = true; },
       "Decode every block again and compare; a mismatch is exit 1");
-  app.add_option_function<std::string>(
-         "--size",
-         [&](const std::string& text) {
-           options.size = parse_frame_size(text);
-           if (!options.size)
-             throw CLI::ValidationError("--size " + text + ": not WxH with sides in 1..65535");
-         },
-         "Size of raw frames")
-      ->type_name("WxH");
+  add_size_option(app, "size", options.size, "Size of raw frames");
   app.add_option_function<std::string>(
          "--format",
          [&](const std::string& text) {

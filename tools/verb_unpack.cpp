@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "command_line.h"
+#include "common_options.h"
 #include "image_writer.h"
 #include "packed_file.h"
 #include "read_options.h"
@@ -156,16 +157,7 @@ int verb_unpack(int argc, char** argv) {
                  "png, or raw: the pixels as memory holds them (rgba is the same; default: png)")
       ->type_name("NAME")
       ->check(CLI::IsMember({"png", "raw", "rgba"}));
-  app.add_option_function<std::string>(
-         "--frames",
-         [&](const std::string& text) {
-           std::string error;
-           const auto frames = FrameSet::parse(text, error);
-           if (!frames) throw CLI::ValidationError("--frames " + text + ": " + error);
-           options.frames = *frames;
-         },
-         "Only these frames of the file, as 0-99,200 (default: every frame)")
-      ->type_name("RANGES");
+  add_frames_option(app, options.frames);
   app.add_option("--frame", options.frame, "Only this frame of the file, from 0")->type_name("N");
   app.add_option_function<std::string>(
          "--rect",
