@@ -29,11 +29,17 @@ _tilepress() {
       case $verb in
         compare) mapfile -t COMPREPLY < <(compgen -W "text markdown csv" -- "$current") ;;
         export) mapfile -t COMPREPLY < <(compgen -W "gem5 jsonl" -- "$current") ;;
+        pack) mapfile -t COMPREPLY < <(compgen -W "rgba rgb565 rgb10a2" -- "$current") ;;
+        unpack) mapfile -t COMPREPLY < <(compgen -W "png raw rgba" -- "$current") ;;
       esac
       return ;;
     --heatmaps | --dump-frames) mapfile -t COMPREPLY < <(compgen -W "every:" -- "$current"); return ;;
     --progress) mapfile -t COMPREPLY < <(compgen -W "auto never json" -- "$current"); return ;;
     --via) mapfile -t COMPREPLY < <(compgen -W "auto preload glvnd" -- "$current"); return ;;
+    --via) mapfile -t COMPREPLY < <(compgen -W "auto preload glvnd" -- "$current"); return ;;
+    --api) mapfile -t COMPREPLY < <(compgen -W "auto egl glx" -- "$current"); return ;;
+    --display) mapfile -t COMPREPLY < <(compgen -W "auto surfaceless xvfb x11" -- "$current"); return ;;
+    --overlay) mapfile -t COMPREPLY < <(compgen -W "blend only off" -- "$current"); return ;;
     --on-full) mapfile -t COMPREPLY < <(compgen -W "block drop" -- "$current"); return ;;
     --log-level) mapfile -t COMPREPLY < <(compgen -W "trace debug info warn error off" -- "$current"); return ;;
   esac

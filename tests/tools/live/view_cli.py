@@ -5,13 +5,14 @@ view_cli.py TILEPRESS PICTURE_PROGRAM"""
 import os
 import re
 import signal
-import struct
 import subprocess
 import sys
 import tempfile
 import time
-import zlib
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from picture_files import read_pgm, read_png  # noqa: E402
 
 TILEPRESS, PROGRAM = sys.argv[1:3]
 # The window's drivers leave memory behind; what is ours to free is looked at in the unit tests.
@@ -58,40 +59,6 @@ class Display:
         subprocess.run(["xdotool", "mousemove", "300", "300", "key", "--delay", "30", *keys], env=self.environment, check=True, timeout=60)
 
 
-def read_png(path):
-    """Width, height and rows of 8-bit RGB or RGBA samples."""
-    data = path.read_bytes()
-    width, height, depth, kind = struct.unpack(">IIBB", data[16:26])
-    assert depth == 8 and kind in (2, 6), (depth, kind)
-    packed, at = b"", 8
-    while at < len(data):
-        length, name = struct.unpack(">I4s", data[at:at + 8])
-        if name == b"IDAT":
-            packed += data[at + 8:at + 8 + length]
-        at += 12 + length
-    raw, step = zlib.decompress(packed), 3 if kind == 2 else 4
-    pitch, rows = width * step, []
-    before = bytearray(pitch)
-    for y in range(height):
-        method, line = raw[y * (pitch + 1)], bytearray(raw[y * (pitch + 1) + 1:(y + 1) * (pitch + 1)])
-        for x in range(pitch):
-            a = line[x - step] if x >= step else 0
-            b = before[x]
-            c = before[x - step] if x >= step else 0
-            if method == 1:
-                line[x] = line[x] + a & 255
-            elif method == 2:
-                line[x] = line[x] + b & 255
-            elif method == 3:
-                line[x] = line[x] + (a + b >> 1) & 255
-            elif method == 4:
-                p, q, r = abs(b - c), abs(a - c), abs(a + b - 2 * c)
-                line[x] = line[x] + (a if p <= q and p <= r else b if q <= r else c) & 255
-        rows.append(bytes(line))
-        before = line
-    return width, height, rows
-
-
 def find_picture(rows, wanted):
     """Where rows of RGB bytes lie in a screenshot's: (x, y), or None."""
     for y in range(len(rows) - len(wanted) + 1):
@@ -111,13 +78,6 @@ def heat_color(share):
     return tuple(int(stops[low][c] * (1 - place + low) + stops[low + 1][c] * (place - low) + 0.5) for c in range(3))
 
 
-def read_pgm(path):
-    magic, _, sizes, most, data = path.read_bytes().split(b"\n", 4)
-    assert magic == b"P5" and int(most) == 2048
-    width, height = map(int, sizes.split())
-    return width, height, struct.unpack(f">{width * height}H", data)
-
-
 def view(display, *arguments):
     return subprocess.run([TILEPRESS, "view", *map(str, arguments)], env=display.environment, capture_output=True, text=True, timeout=120)
 
@@ -127,7 +87,11 @@ def screenshot(display, folder, name, *arguments):
     done = view(display, folder / "out", "--screenshot", folder / name, *arguments)
     found = re.fullmatch(rf"{re.escape(str(folder / name))}: frame (\d+) of surface 0\n", done.stderr)
     expect(done.returncode == 0 and found, f"{name}: {done}")
-    return (int(found.group(1)), *read_png(folder / name)) if found else (None, 0, 0, [])
+    if not found:
+        return None, 0, 0, []
+    width, height, channels, samples = read_png(folder / name)
+    expect(channels == 3, f"{name} has {channels} channels")
+    return int(found.group(1)), width, height, [samples[y * width * 3:(y + 1) * width * 3] for y in range(height)]
 
 
 def shows_frames_and_heat(display, folder):
@@ -149,8 +113,8 @@ def shows_frames_and_heat(display, folder):
         expect(find_picture(rows, wanted), f"frame {frame} is not in the window")
 
         frame, width, height, rows = screenshot(display, folder, "heat.png", "--overlay", "only", "--zoom", "1", "-s", "ras")
-        blocks_x, blocks_y, bits = read_pgm(run / f"heatmaps/0-{frame:06}-ras.pgm")
-        expect((blocks_x, blocks_y) == (13, 8), f"{blocks_x}x{blocks_y} blocks")
+        scheme, blocks_x, blocks_y, bits = read_pgm(run / f"heatmaps/0-{frame:06}-ras.pgm")
+        expect((scheme, blocks_x, blocks_y) == ("ras", 13, 8), f"{scheme}: {blocks_x}x{blocks_y} blocks")
         wanted = [b"".join(bytes(heat_color(bits[y // 8 * blocks_x + x // 8] / 2048)) for x in range(100)) for y in range(60)]
         expect(find_picture(rows, wanted), f"the heat map of frame {frame} is not in the window")
     finally:
