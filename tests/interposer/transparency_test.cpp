@@ -1,6 +1,7 @@
 // Transparency: programs cannot tell that the shim is there, and however they end, their frames are kept.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <cstdio>
 
@@ -69,6 +70,74 @@ TEST(Transparency, AnUnwritableOutputFolderDoesNotHarmTheProgram) {
   EXPECT_NE(run.log.find("tilepress: /proc/nowhere"), std::string::npos) << run.log;
 }
 
+/// `script` runs a program that presents 40 frames as "$0" "$@", in circumstances of its own.
+ShimRun run_in(ShimTest& test, const char* script, std::map<std::string, std::string> environment = {}) {
+  return test.run({"sh", "-c", script, TILEPRESS_EGL_OPENED, "local", "40", "96", "80"},
+                  std::move(environment));
+}
+
+TEST(Transparency, AVanishedWorkingFolderIsNoMatter) {
+  ShimTest test;
+  const ShimRun run = run_in(test, "d=$(mktemp -d) && cd $d && rmdir $d && exec \"$0\" \"$@\"");
+  EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
+  ASSERT_EQ(run.runs.size(), 1u);
+  EXPECT_EQ(run.runs[0].frames.size(), 40u);
+}
+
+TEST(Transparency, ClosedStandardStreamsAreNotTakenForTheShimsFiles) {
+  ShimTest test;
+  const ShimRun run = run_in(test, "exec \"$0\" \"$@\" 2>&- <&-");
+  EXPECT_TRUE(run.process.exited_with(0));
+  EXPECT_EQ(run.process.out, "error after the last swap: 0x3000\n");
+  ASSERT_EQ(run.runs.size(), 1u);
+  EXPECT_EQ(run.runs[0].frames.size(), 40u);
+  for (const auto& row : run.runs[0].frames) EXPECT_EQ(row.count("top100_coverage"), 1u);
+}
+
+// 40 frames' rows are longer than a kilobyte, the files' limit (which sends a signal, too).
+TEST(Transparency, FilesThatMayNotGrowEndTheRunNotTheProgram) {
+  ShimTest test;
+  const ShimRun run = run_in(test, "ulimit -f 2; exec \"$0\" \"$@\"", {{"TILEPRESS_DUMP", ""}});
+  EXPECT_TRUE(run.process.exited_with(0)) << run.process.status;
+  EXPECT_EQ(run.process.out, "error after the last swap: 0x3000\n");
+  EXPECT_EQ(run.process.err, "");
+  ASSERT_EQ(run.runs.size(), 1u);
+  EXPECT_LT(run.runs[0].frames.size(), 40u);
+}
+
+TEST(Transparency, AFullDiskEndsTheRunNotTheProgram) {
+  const ProcessResult able =
+      run_process({"unshare", "-rm", "sh", "-c",
+                   "d=$(mktemp -d); mount -t tmpfs -o size=16k none $d; s=$?; rmdir $d 2>/dev/null; exit $s"},
+                  {});
+  if (!able.exited_with(0)) GTEST_SKIP() << "no small file system can be mounted here";
+  ShimTest test;
+  const ShimRun run = test.run(
+      {"unshare", "-rm", "sh", "-c",
+       "mkdir -p \"$TILEPRESS_OUT\"; mount -t tmpfs -o size=16k none \"$TILEPRESS_OUT\"; \"$0\" \"$@\"; s=$?;"
+       "df --output=avail \"$TILEPRESS_OUT\" | tail -1 >&2; exit $s",
+       TILEPRESS_EGL_OPENED, "local", "200", "96", "80"},
+      {{"TILEPRESS_DUMP", ""}});
+  EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
+  EXPECT_EQ(run.process.out, "error after the last swap: 0x3000\n");
+  EXPECT_NE(run.log.find("No space left on device"), std::string::npos) << run.log;
+}
+
+TEST(Transparency, AProgramWithMoreRightsIsNotReachedAndDoesNotNotice) {
+  std::vector<std::string> command = {"su", "--version"};
+  if (geteuid() == 0) {
+    const std::vector<std::string> as_another = {"setpriv", "--reuid=65534", "--regid=65534",
+                                                 "--clear-groups"};
+    command.insert(command.begin(), as_another.begin(), as_another.end());
+  }
+  const ProcessResult without = run_process(command, kWithout);
+  const ProcessResult with = run_process(command, with_shim());
+  EXPECT_TRUE(without.exited_with(0)) << without.err;
+  EXPECT_EQ(with.status, without.status);
+  EXPECT_EQ(with.out, without.out);
+  EXPECT_EQ(with.err, without.err);
+}
+
 class EndOfProgram : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EndOfProgram, LosesNoFrameAndKeepsItsStatus) {
@@ -82,10 +151,16 @@ TEST_P(EndOfProgram, LosesNoFrameAndKeepsItsStatus) {
 INSTANTIATE_TEST_SUITE_P(Transparency, EndOfProgram,
                          ::testing::Values("exit", "_exit", "_Exit", "quick_exit"));
 
-TEST(Transparency, AKilledProgramKeepsTheRowsOfItsFinishedFrames) {
+struct Killing {
+  const char* end;
+  int signal;
+};
+class KilledProgram : public ::testing::TestWithParam<Killing> {};
+
+TEST_P(KilledProgram, KeepsTheRowsOfItsFinishedFrames) {
   ShimTest test;
-  const ShimRun run = test.run({TILEPRESS_EGL_OPENED, "local", "200", "64", "64", "kill"});
-  EXPECT_TRUE(run.process.killed_by(SIGKILL));
+  const ShimRun run = test.run({TILEPRESS_EGL_OPENED, "local", "200", "64", "64", GetParam().end});
+  EXPECT_TRUE(run.process.killed_by(GetParam().signal));
   ASSERT_EQ(run.runs.size(), 1u);
   // The queue holds three frames; all before them are finished.
   EXPECT_GE(run.runs[0].frames.size(), 197u);
@@ -94,6 +169,30 @@ TEST(Transparency, AKilledProgramKeepsTheRowsOfItsFinishedFrames) {
     EXPECT_EQ(run.runs[0].frames[i].count("top100_coverage"), 1u);
   }
   EXPECT_GE(run.runs[0].schemes.size(), 2 * run.runs[0].frames.size());
+}
+INSTANTIATE_TEST_SUITE_P(Transparency, KilledProgram,
+                         ::testing::Values(Killing{"kill", SIGKILL}, Killing{"abort", SIGABRT},
+                                           Killing{"term", SIGTERM}, Killing{"segv", SIGSEGV}),
+                         [](const auto& test) { return std::string(test.param.end); });
+
+TEST(Transparency, APresentingProgramMayExecuteAnother) {
+  ShimTest test;
+  const ShimRun run = test.run({TILEPRESS_EGL_OPENED, "local", "6", "32", "24", "vfork"});
+  EXPECT_TRUE(run.process.exited_with(0));
+  EXPECT_NE(run.process.out.find("child\n"), std::string::npos);
+  EXPECT_EQ(run.process.err, "");
+  ASSERT_EQ(run.runs.size(), 1u);
+  EXPECT_EQ(run.runs[0].frames.size(), 12u);
+}
+
+TEST(Transparency, TheGlLibraryMayBeClosedAndOpenedAgain) {
+  for (const char* road : {"local", "deepbind"}) {
+    ShimTest test;
+    const ShimRun run = test.run({TILEPRESS_EGL_OPENED, road, "6", "32", "24", "dlclose"});
+    EXPECT_TRUE(run.process.exited_with(0)) << road << run.process.err;
+    ASSERT_EQ(run.runs.size(), 1u);
+    EXPECT_EQ(run.runs[0].frames.size(), 12u) << road;
+  }
 }
 
 TEST(Transparency, AForkedChildThatPresentsHasARunOfItsOwn) {

@@ -1,7 +1,8 @@
 /* egl_picture ROAD FRAMES WIDTH HEIGHT [END]: presents the known picture from a pbuffer, without a window
    system. ROAD: how EGL is reached: link (only in the build that links it), local, deepbind, getproc, dlvsym.
-   END: how the program ends: return (default), exit, _exit, _Exit, quick_exit, kill, fork (a child presents
-   too). Prints the error that eglGetError gives after the last swap. */
+   END: how the program ends: return (default), exit, _exit, _Exit, quick_exit, abort, kill, term, segv
+   (signals), fork (a child presents too), vfork (a child is executed, then as many frames again), dlclose (of
+   the GL library, then as many frames again). Prints the error that eglGetError gives after the last swap. */
 #define _GNU_SOURCE
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -114,6 +115,21 @@ int main(int argc, char** argv) {
   if (strcmp(end, "_Exit") == 0) _Exit(7);
   if (strcmp(end, "quick_exit") == 0) quick_exit(7);
   if (strcmp(end, "kill") == 0) kill(getpid(), SIGKILL);
+  if (strcmp(end, "abort") == 0) abort();
+  if (strcmp(end, "term") == 0) raise(SIGTERM);
+  if (strcmp(end, "segv") == 0) raise(SIGSEGV);
+  if (strcmp(end, "vfork") == 0) {
+    if (vfork() == 0) {
+      execlp("sh", "sh", "-c", "echo child", (char*)NULL);
+      _exit(127);
+    }
+    wait(NULL);
+    present(frames, width, height);
+  }
+  if (strcmp(end, "dlclose") == 0) {
+    if (library == NULL || dlclose(library) != 0 || !open_library()) return 9;
+    present(frames, width, height);
+  }
   if (strcmp(end, "fork-after") == 0 && fork() == 0) {
     present(frames + 2, width, height);
     return 0;
