@@ -10,7 +10,8 @@
 namespace tilepress {
 namespace {
 constexpr uint32_t kBucketsPerEntry = 16;
-}
+constexpr int kFewHits = 24;  ///< so few are counted one by one; of more, all lanes without a branch
+}  // namespace
 
 LfcCollector::LfcCollector(uint32_t entries)
     : entries_(entries), slot_places_(entries, kNoSlot), slot_colors_(entries) {
@@ -155,6 +156,19 @@ void LfcCollector::see_run(uint32_t color, uint32_t count) {
   settle_tail();
 }
 
+/// The misses of a block at once: each takes the tail, and the last stays. False, and nothing happened, if so
+/// many are alike in a row that another slot may become the tail.
+bool LfcCollector::take_misses(const uint32_t* pixels, uint64_t misses) {
+  std::array<uint32_t, kLanes + 16> colors;
+  const uint64_t alike = kernels().compact(pixels, misses, tail_color_, colors.data());
+  if (tail_count_ + static_cast<uint32_t>(std::popcount(alike)) >= floor_) return false;
+  const auto count = static_cast<uint32_t>(std::popcount(misses));
+  const auto run = static_cast<uint32_t>(std::countl_one(alike << (kLanes - count)));
+  tail_count_ = run == count ? tail_count_ + count : run + 1;
+  tail_color_ = colors[count - 1];
+  return true;
+}
+
 bool LfcCollector::see_block(const FewColors& few) {
   uint32_t places[FewColors::kMost];
   for (uint32_t n = 0; n < few.count; ++n) {
@@ -178,6 +192,17 @@ void LfcCollector::see_block(const uint32_t* pixels) {
     uint64_t misses =
         ~kernels().members(pixels, table_, crowded_colors_.data(), crowded_, places) & ~uint64_t{0} << from;
     bool changed = false;
+    if (misses != 0 && full() && take_misses(pixels, misses)) {
+      uint64_t hits = ~misses & ~uint64_t{0} << from;
+      if (std::popcount(hits) < kFewHits) {
+        for (; hits != 0; hits &= hits - 1) {
+          const auto lane = static_cast<uint32_t>(std::countr_zero(hits));
+          ++counts_[places[lane] + (lane & 3) * copy_stride_];
+        }
+        return;
+      }
+      misses = 0;
+    }
     for (; misses != 0 && !changed; misses &= misses - 1) {
       const auto lane = static_cast<uint32_t>(std::countr_zero(misses));
       const uint32_t color = pixels[lane];

@@ -52,6 +52,7 @@ class LfcCollector {
   void rehash();
   void fill_slot(uint32_t color, uint32_t count);
   bool settle_tail();
+  bool take_misses(const uint32_t* pixels, uint64_t misses);
 
   const uint32_t entries_;
   uint32_t used_ = 0;  ///< slots filled

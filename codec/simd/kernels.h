@@ -63,6 +63,10 @@ struct Kernels {
   uint64_t (*members)(const uint32_t* pixels, const ProbeTable& table, const uint32_t* crowded_colors,
                       uint32_t crowded, uint32_t* places);
 
+  /// Packs the pixels whose bit of `mask` is set: out[0], out[1], ... in order; what follows them, up to
+  /// out[79], may be overwritten. Bit i of the result: out[i] equals the one before it, out[0] `before`.
+  uint64_t (*compact)(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out);
+
   /// Bits of the Golomb-Rice codes of four planes with their group headers, without the first pixels.
   /// samples: rows of 40 values, row -1 to 7; see ras_samples.h.
   uint32_t (*ras_code_bits)(const int16_t* samples);

@@ -182,6 +182,30 @@ uint64_t Members(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table,
   return mask;
 }
 
+uint64_t Compact(const uint32_t* HWY_RESTRICT pixels, uint64_t mask, uint32_t before,
+                 uint32_t* HWY_RESTRICT out) {
+  const Words d;
+  uint32_t count = 0;
+  for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
+    uint8_t bits[8] = {};
+    const uint64_t lanes = mask >> i & ((uint64_t{1} << hn::Lanes(d)) - 1);
+    __builtin_memcpy(bits, &lanes, 8);
+    const auto kept = hn::Compress(hn::LoadU(d, pixels + i), hn::LoadMaskBits(d, bits));
+    hn::StoreU(kept, d, out + count);
+    count += static_cast<uint32_t>(__builtin_popcountll(lanes));
+  }
+  if (count == 0) return 0;
+  uint64_t alike = out[0] == before;
+  for (size_t i = 1; i < count; i += hn::Lanes(d)) {
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, out + i), hn::LoadU(d, out + i - 1)), bits);
+    uint64_t lanes;
+    __builtin_memcpy(&lanes, bits, 8);
+    alike |= lanes << i;
+  }
+  return count == 64 ? alike : alike & ((uint64_t{1} << count) - 1);
+}
+
 using Samples = hn::CappedTag<int16_t, 32>;  // a row of eight pixels of four planes
 
 template <class V>
@@ -279,8 +303,8 @@ void WidenBytes(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, int16_t*
 }
 
 const Kernels& Set(const char* name) {
-  static const Kernels kSet = {name, LoadTraversal, IsSolid, Find,        Split,      FindFew,   WidthSum,
-                               Pack, CountBelow,    Members, RasCodeBits, ReplaceRow, WidenBytes};
+  static const Kernels kSet = {name, LoadTraversal, IsSolid, Find,    Split,       FindFew,    WidthSum,
+                               Pack, CountBelow,    Members, Compact, RasCodeBits, ReplaceRow, WidenBytes};
   return kSet;
 }
 

@@ -100,6 +100,16 @@ uint64_t members(const uint32_t* pixels, const ProbeTable& table, const uint32_t
   return mask;
 }
 
+uint64_t compact(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out) {
+  uint64_t alike = 0;
+  for (uint32_t count = 0; mask != 0; mask &= mask - 1, ++count) {
+    out[count] = pixels[std::countr_zero(mask)];
+    alike |= uint64_t{out[count] == before} << count;
+    before = out[count];
+  }
+  return alike;
+}
+
 int32_t median_edge(int32_t a, int32_t b, int32_t c) {
   if (c >= std::max(a, b)) return std::min(a, b);
   if (c <= std::min(a, b)) return std::max(a, b);
@@ -157,9 +167,9 @@ void widen_bytes(const uint32_t* top_left, uint32_t stride, int16_t* samples) {
 }  // namespace
 
 const Kernels& scalar_kernels() {
-  static const Kernels kScalar = {"scalar",      load_traversal, is_solid,   find,        split,
-                                  find_few,      width_sum,      pack,       count_below, members,
-                                  ras_code_bits, replace_row,    widen_bytes};
+  static const Kernels kScalar = {"scalar", load_traversal, is_solid,    find,        split,
+                                  find_few, width_sum,      pack,        count_below, members,
+                                  compact,  ras_code_bits,  replace_row, widen_bytes};
   return kScalar;
 }
 

@@ -1,0 +1,120 @@
+// LFC collector: slot for slot what the plain FVC holds, whatever comes.
+#include "dcp/lfc_collector.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "dcp/fvc.h"
+#include "simd/kernels.h"
+#include "surface_patterns.h"
+#include "tilepress/scheme.h"
+#include "tilepress/simd.h"
+
+using namespace tilepress;
+
+namespace {
+
+/// 64 pixels of one of `colors` colours each, in runs of up to `longest_run`.
+std::array<uint32_t, kBlockPixels> draw_block(uint32_t colors, uint32_t longest_run, patterns::Dice& dice) {
+  std::array<uint32_t, kBlockPixels> pixels;
+  for (uint32_t i = 0; i < kBlockPixels;) {
+    // Squared: some colours far more often than others.
+    const uint64_t at = dice.below(1u << 16), color = at * at % (uint64_t{colors} << 16) >> 16;
+    for (uint32_t run = 1 + dice.below(longest_run); run > 0 && i < kBlockPixels; --run)
+      pixels[i++] = static_cast<uint32_t>(color) * 0x01000193u;
+  }
+  return pixels;
+}
+
+std::string differences(const Fvc& plain, const Fvc& fast) {
+  std::string text;
+  for (uint32_t slot = 0; slot < plain.slots(); ++slot)
+    if (plain.valid(slot) != fast.valid(slot) ||
+        (plain.valid(slot) &&
+         (plain.color(slot) != fast.color(slot) || plain.count(slot) != fast.count(slot))))
+      text += " " + std::to_string(slot);
+  if (plain.samples() != fast.samples()) text += " samples";
+  return text;
+}
+
+}  // namespace
+
+TEST(LfcCollector, HoldsWhatThePlainFvcHolds) {
+  const std::string_view target = simd_target();
+  const FormatTraits& format = traits(PixelFormat::kRgba8);
+  for (const std::string_view each : simd_targets()) {
+    force_simd_target(each);
+    for (const uint32_t entries : {2u, 4u, 16u, 64u, 128u}) {
+      patterns::Dice dice(entries);
+      FvcConfig config;
+      config.entries = entries;
+      Fvc plain(config, format), fast_slots(config, format);
+      LfcCollector fast(entries);
+      uint64_t few_taken = 0;
+      for (uint32_t block = 0; block < 4000; ++block) {
+        if (block % 500 == 0) {
+          plain.reset();
+          fast.reset();
+        }
+        constexpr uint32_t kColors[] = {1, 2, 5, 20, 70, 130, 300, 60000};
+        const auto pixels = draw_block(kColors[dice.below(8)], 1 + dice.below(12), dice);
+        plain.see_all(pixels.data(), kBlockPixels);
+        FewColors few;
+        if (std::count(pixels.begin(), pixels.end(), pixels[0]) == kBlockPixels)
+          fast.see_run(pixels[0], kBlockPixels);
+        else if (kernels().split(pixels.data(), few) && fast.see_block(few))
+          ++few_taken;
+        else
+          fast.see_block(pixels.data());
+        if (block % 7 != 0) continue;
+        fast.store_to(fast_slots);
+        ASSERT_EQ(differences(plain, fast_slots), "")
+            << each << ", " << entries << " entries, block " << block;
+      }
+      EXPECT_TRUE(entries < 16 || few_taken > 100);  // that way was tried, too
+    }
+  }
+  force_simd_target(target);
+}
+
+TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
+  const std::string_view target = simd_target();
+  patterns::Dice dice(3);
+  for (int round = 0; round < 3000; ++round) {
+    const auto pixels = draw_block(1 + dice.below(12), 1 + dice.below(20), dice);
+    const uint64_t mask = uint64_t{dice.next()} << 32 | dice.next();
+    force_simd_target("scalar");
+    FewColors few, other_few;
+    const bool is_few = kernels().split(pixels.data(), few);
+    uint32_t packed[80] = {}, other_packed[80] = {};
+    const uint64_t alike = kernels().compact(pixels.data(), mask, pixels[5], packed);
+    const auto kept = static_cast<size_t>(std::popcount(mask));
+    uint32_t indices[64], largest[64], words[16], widths[16], other_words[16], other_widths[16];
+    for (uint32_t i = 0; i < 64; ++i) indices[i] = i % 16 < 4 ? kNotInCcd : dice.below(1u << dice.below(8));
+    for (uint32_t i = 0; i < 64; ++i)
+      largest[i] = *std::max_element(indices + i / 4 * 4, indices + i / 4 * 4 + 4);
+    kernels().pack(indices, largest, kNotInCcd, words, widths);
+    for (const std::string_view each : simd_targets()) {
+      SCOPED_TRACE(each);
+      force_simd_target(each);
+      ASSERT_EQ(kernels().split(pixels.data(), other_few), is_few);
+      if (is_few) {
+        ASSERT_EQ(few.count, other_few.count);
+        ASSERT_TRUE(std::equal(few.colors, few.colors + few.count, other_few.colors));
+        ASSERT_TRUE(std::equal(few.places, few.places + few.count, other_few.places));
+      }
+      ASSERT_EQ(kernels().compact(pixels.data(), mask, pixels[5], other_packed), alike);
+      ASSERT_TRUE(std::equal(packed, packed + kept, other_packed));
+      kernels().pack(indices, largest, kNotInCcd, other_words, other_widths);
+      ASSERT_TRUE(std::equal(widths, widths + 16, other_widths));
+      for (uint32_t sub = 0; sub < 16; ++sub)
+        ASSERT_TRUE(widths[sub] == kRawWidth || words[sub] == other_words[sub]);
+      ASSERT_EQ(kernels().is_solid(pixels.data(), 8, pixels[0]),
+                std::count(pixels.begin(), pixels.end(), pixels[0]) == 64);
+    }
+  }
+  force_simd_target(target);
+}
