@@ -161,7 +161,7 @@ void LfcCollector::see_run(uint32_t color, uint32_t count) {
 bool LfcCollector::take_misses(const uint32_t* pixels, uint64_t misses) {
   std::array<uint32_t, kLanes + 16> colors;
   const uint64_t alike = kernels().compact(pixels, misses, tail_color_, colors.data());
-  if (tail_count_ + static_cast<uint32_t>(std::popcount(alike)) >= floor_) return false;
+  if (alike != 0 && tail_count_ + static_cast<uint32_t>(std::popcount(alike)) >= floor_) return false;
   const auto count = static_cast<uint32_t>(std::popcount(misses));
   const auto run = static_cast<uint32_t>(std::countl_one(alike << (kLanes - count)));
   tail_count_ = run == count ? tail_count_ + count : run + 1;
