@@ -107,12 +107,17 @@ class CaptureList {
 
 void show_screen(const CaptureList& captures, const std::vector<std::string>& folders) {
   winsize size{};
-  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 2;
+  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 4;
   const size_t columns = known ? size.ws_col : 80, rows = known ? size.ws_row : 24;
   std::vector<std::string> lines = captures.lines(columns);
   if (captures.empty()) lines.push_back("waiting for a capture in " + folders.front() + " …");
   std::string out = "\x1b[H";
-  for (size_t i = 0; i + 2 < rows && i < lines.size(); ++i) out += lines[i] + "\x1b[K\n";
+  if (lines.size() + 2 > rows) {
+    const size_t more = lines.size() + 3 - rows;
+    lines.resize(rows - 3);
+    lines.push_back("… " + std::to_string(more) + " more lines than the terminal has");
+  }
+  for (const std::string& line : lines) out += line + "\x1b[K\n";
   out += "\x1b[K\nq quits; the programs go on\x1b[K\x1b[J";
   std::fwrite(out.data(), 1, out.size(), stdout);
   std::fflush(stdout);
@@ -147,6 +152,8 @@ int verb_top(int argc, char** argv) {
   struct sigaction action {};
   action.sa_handler = [](int) { interrupted = true; };
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
+  action.sa_handler = [](int) {};  // ends the wait: the screen is drawn for its new size
+  sigaction(SIGWINCH, &action, nullptr);
   const LiveTerminal terminal;
   for (char key = 0; !interrupted && key != 'q' && key != 'Q'; key = terminal.key(wait_ms)) {
     captures.refresh();

@@ -18,7 +18,8 @@ struct WatchedCapture {
 };
 
 /// The lines of one capture, each at most `columns` wide: program and size, frames per second and counts,
-/// what capturing costs, and a line per scheme with its rate over the run and of the last frame.
+/// what capturing costs, and a line per scheme with its rate over the run and of the last frame; where a scheme
+/// causes further traffic, also the run's rate with it.
 std::vector<std::string> capture_lines(const WatchedCapture& capture, size_t columns);
 
 /// A name from shared memory, what is not printable as '?'.

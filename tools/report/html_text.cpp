@@ -85,6 +85,7 @@ Cell percent_cell(double share) {
 
 namespace {
 
+constexpr size_t kDenseColumns = 14;  ///< a table with more is set smaller
 /// A column name that may be broken behind its underscores.
 std::string breakable(std::string_view name) {
   std::string out;
@@ -95,8 +96,8 @@ std::string breakable(std::string_view name) {
 }  // namespace
 
 std::string table_html(const Table& table) {
-  std::string out =
-      fmt::format("<div class=\"scroll\" tabindex=\"0\"><table class=\"figures\" id=\"{}\">", table.id);
+  std::string out = fmt::format("<div class=\"scroll\" tabindex=\"0\"><table class=\"figures{}\" id=\"{}\">",
+                                table.header.size() > kDenseColumns ? " dense" : "", table.id);
   out += "<caption>" + escape_html(table.caption) + "</caption>\n<thead><tr>";
   for (size_t i = 0; i < table.header.size(); ++i)
     out += fmt::format("<th scope=\"col\"{}>{}</th>", i < table.text_columns ? " class=\"text\"" : "",

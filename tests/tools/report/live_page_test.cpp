@@ -167,5 +167,35 @@ TEST(CaptureScreen, ShowsSpeedRatesAndCosts) {
   for (const std::string& line : capture_lines(capture, 40)) EXPECT_LE(line.size(), 40u);
 }
 
+TEST(CaptureScreen, NothingIsCutAtAnyWidth) {
+  WatchedCapture capture;
+  LiveState& now = capture.now;
+  std::strcpy(now.program, "glmark2-es2");
+  now.pid = 1234567;
+  now.width = 1920;
+  now.height = 1080;
+  now.captured = now.seen = 123456;
+  now.queue_depth = 3;
+  now.scheme_count = 2;
+  std::strcpy(now.schemes[0].name, "dcp");
+  std::strcpy(now.schemes[1].name, "fbc");
+  for (int i = 0; i < 2; ++i) {
+    now.schemes[i].raw_bits = now.schemes[i].frame_raw_bits = 4000;
+    now.schemes[i].moved_bits = now.schemes[i].frame_moved_bits = 1000;
+  }
+  now.schemes[1].extra_bits = 1000;  // 4000 / (1000 + 1000) = 2
+  for (const size_t columns : {40u, 80u, 120u}) {
+    std::string text;
+    for (const std::string& line : capture_lines(capture, columns)) {
+      EXPECT_LE(line.size(), columns) << line;
+      text += line + "\n";
+    }
+    for (const char* field : {"(1234567)", "1920x1080", "captured 123456", "unsupported 0", "queue 0/3",
+                              "readback 0.00 ms", "compress 0.00 ms", "+extra"})
+      EXPECT_NE(text.find(field), std::string::npos) << field << " at " << columns << ":\n" << text;
+    EXPECT_NE(text.find("fbc        4.000   4.000   2.000"), std::string::npos) << text;
+  }
+}
+
 }  // namespace
 }  // namespace tilepress
