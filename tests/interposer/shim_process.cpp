@@ -119,7 +119,7 @@ const std::string& own_display() {
         dup2(silent, STDERR_FILENO);
         close(number[0]);
         execlp("Xvfb", "Xvfb", "-displayfd", std::to_string(number[1]).c_str(), "-screen", "0", "800x1300x24",
-               "-nolisten", "tcp", nullptr);
+               "-nolisten", "tcp", "-noreset", nullptr);
         _exit(127);
       }
       close(number[1]);

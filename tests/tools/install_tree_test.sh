@@ -16,7 +16,7 @@ told=$(env -u DISPLAY "$tilepress" view "$work" 2>&1) && exit 1
 [ "$told" = "tilepress: view: no display: DISPLAY is not set" ] || { echo "view says: $told"; exit 1; }
 
 start_x() {
-  Xvfb -displayfd 7 -screen 0 640x480x24 -nolisten tcp 7>"$work/display" >/dev/null 2>&1 &
+  Xvfb -displayfd 7 -screen 0 640x480x24 -nolisten tcp -noreset 7>"$work/display" >/dev/null 2>&1 &
   x_pid=$!
   trap 'kill "$x_pid" 2>/dev/null || true; rm -rf "$work"' EXIT
   until [ -s "$work/display" ]; do sleep 0.1; kill -0 "$x_pid"; done
