@@ -61,6 +61,10 @@ std::string summary_table(const RunRecord& run, const std::string& title) {
     checked += sum.checked_blocks;
     mismatched += sum.mismatched_blocks;
   }
+  for (size_t i = 0; i < run.scheme_names.size(); ++i)
+    if (const SchemeStatistics& sum = run.totals[i]; sum.extra_bits > 0)
+      out += fmt::format("  {}: rate {:.4f} with the further traffic it causes\n", run.scheme_names[i],
+                         sum.rate_with_extra());
   if (checked > 0)
     out +=
         fmt::format("  verified: {} blocks encoded, decoded and compared, {} differ\n", checked, mismatched);

@@ -133,6 +133,14 @@ class Rows(CliCase):
                     stdin=two[:456])
         self.assertEqual(read_json(self.path("torn/run.json"))["state"], "failed")
 
+    def test_the_summary_tells_the_rate_with_further_traffic(self):
+        done = self.run_command("frames", "-o", "out", "-s", "dcp", "-s", "fbc", golden("odd", 0), golden("odd", 1))
+        rows = [row for row in read_rows(self.path("out/schemes.csv")) if row["scheme"] == "fbc" and row["warmup"] == "0"]
+        (row,) = rows
+        self.assertGreater(int(row["extra_bits"]), 0)
+        lines = [line for line in done.stderr.decode().splitlines() if "further traffic" in line]
+        self.assertEqual(lines, [f"  fbc: rate {float(row['rate_with_extra']):.4f} with the further traffic it causes"])
+
     def test_a_repeated_scheme_counts_once(self):
         self.run_command("frames", "-o", "out", "-s", "red", "-s", "red", golden("odd", 0))
         self.assertEqual(len(read_rows(self.path("out/schemes.csv"))), 1)

@@ -101,7 +101,7 @@ Section extra_section(const Batch& batch) {
     return out;
   }
   out.chart = row_chart(rows, AxisScale::for_rates(0, high), RowShape::kBars,
-                        "rate with further traffic (raw / (moved + extra) bits), harmonic mean",
+                        "raw / (moved + extra) bits, harmonic mean",
                         out.heading + ". The table has all figures.");
   return out;
 }
