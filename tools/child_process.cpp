@@ -22,10 +22,12 @@ constexpr int kPassedOn[] = {SIGTERM, SIGHUP, SIGUSR1, SIGUSR2};
 constexpr int kLeftToChild[] = {SIGINT, SIGQUIT};
 
 volatile sig_atomic_t child_pid = 0;
+volatile sig_atomic_t told_to_end = 0;
 
 void pass_on(int signal) {
   const int saved = errno;
   if (child_pid > 0) kill(child_pid, signal);
+  if (signal == SIGTERM || signal == SIGHUP) told_to_end = 1;
   errno = saved;
 }
 
@@ -172,6 +174,7 @@ std::optional<ChildEnd> run_child(const std::vector<std::string>& argv,
     end.signal = WTERMSIG(status);
   else
     end.exit_status = WEXITSTATUS(status);
+  end.told_to_end = told_to_end != 0 || end.signal == SIGINT || end.signal == SIGQUIT;
   return end;
 }
 

@@ -24,6 +24,7 @@ struct ChildEnd {
   std::optional<int> exit_status;  ///< either this
   std::optional<int> signal;       ///< or this is set
   bool ended_by_limit = false;     ///< it was still running at the end of its time
+  bool told_to_end = false;  ///< we were sent SIGTERM or SIGHUP, or it was interrupted from the terminal
   /// As a shell tells it: the status, or 128 + signal.
   int status() const { return signal ? 128 + *signal : exit_status.value_or(0); }
 };

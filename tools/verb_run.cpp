@@ -254,6 +254,7 @@ int measure_overhead(const LaunchOptions& options, const std::string& shim, cons
     const auto done = launch(options, shim, capture, options.quiet || !last, session, failed);
     if (!done) return failed;
     runs.push_back({round, capture, own_status(done->child), busiest_series(session.path())});
+    if (done->child.told_to_end) return runs.back().exit_status;
     if (status == 0) status = runs.back().exit_status;
     if (runs.back().exit_status != runs.front().exit_status)
       fail(kExitFailed, "exit status " + std::to_string(runs.back().exit_status) + " in run " +

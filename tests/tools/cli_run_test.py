@@ -168,6 +168,17 @@ class Captures(CliCase):
         (folder,) = glob.glob(self.path("out/glxgears*"))
         self.assertEqual(read_json(os.path.join(folder, "run.json"))["signal"], int(signal.SIGTERM))
 
+    def test_sigterm_ends_the_measurement(self):
+        process = subprocess.Popen([COMMAND, "run", "--measure-overhead", "-o", "out", "--", "sh", "-c",
+                                    "echo started >> starts; echo ready; while :; do sleep 0.1; done"],
+                                   cwd=self.folder, stdout=subprocess.PIPE)
+        self.assertEqual(process.stdout.readline(), b"ready\n")
+        process.terminate()
+        self.assertEqual(process.wait(timeout=60), 128 + signal.SIGTERM)
+        process.stdout.close()
+        with open(self.path("starts"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), "started\n")
+
     def test_presents_tell_what_each_frame_cost(self):
         with XServer() as server:
             self.run_command("run", "-o", "out", "-s", "red", "--", "glmark2-es2", "--size", "160x120", "-b",
