@@ -58,7 +58,10 @@ void Find(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table, uint32_t
     const auto at =
         hn::BitCast(di, hn::ShiftRightSame(hn::Mul(color, multiplier), static_cast<int>(table.shift)));
     const auto key = hn::GatherIndex(d, table.colors.data(), at);
-    const auto value = hn::IfThenElse(hn::Eq(key, color), hn::GatherIndex(d, table.values.data(), at), none);
+    const auto known = hn::Eq(key, color);
+    auto value = none;
+    if (!hn::AllFalse(d, known))
+      value = hn::IfThenElse(known, hn::GatherIndex(d, table.values.data(), at), none);
     hn::StoreU(value, d, values + i);
     const auto pair = hn::Max(value, hn::Shuffle2301(value));
     hn::StoreU(hn::Max(pair, hn::Shuffle1032(pair)), d, largest + i);
