@@ -60,6 +60,27 @@ void add_run_options(CLI::App& app, RunOptions& options) {
            "trace, debug, info, warn, error or off (default: warn)");
 }
 
+void add_capture_options(CLI::App& app, RunOptions& options) {
+  app.add_option_function<std::vector<std::string>>(
+         "--trigger",
+         [&options](const std::vector<std::string>& calls) {
+           std::string list;
+           for (const std::string& call : calls) list.append(list.empty() ? "" : ",").append(call);
+           set_or_throw(options, "trigger", list.empty() ? "none" : list);
+         },
+         "GL calls that end a frame beside the presenting ones, for programs that present nothing: of the "
+         "bound "
+         "framebuffer; a list with commas")
+      ->type_name("finish|flush|readpixels")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  add_text(app, options, "--targets", "targets", "presented|all",
+           "What is presented, or also each image of the program's own framebuffers, a surface of its own "
+           "(default: "
+           "presented)");
+}
+
 void add_on_full_option(CLI::App& app, RunOptions& options) {
   add_text(app, options, "--on-full", "on-full", "block|drop",
            "When frames come faster than they are compressed: hold the program, or drop and count (default: "

@@ -22,6 +22,9 @@ void add_model_options(
 /// The same and -o/--output, --verify, --heatmaps, --dump-frames and --log-level.
 void add_run_options(CLI::App& app, RunOptions& options);
 
+/// Adds --trigger and --targets, for verbs that capture running programs.
+void add_capture_options(CLI::App& app, RunOptions& options);
+
 /// Adds --on-full, for verbs that capture running programs.
 void add_on_full_option(CLI::App& app, RunOptions& options);
 

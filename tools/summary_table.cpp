@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "tilepress/cost_model.h"
 
@@ -16,11 +17,14 @@ double percent(uint64_t part, uint64_t whole) {
 
 /// "720x1280 RGBA8", or the number of surfaces if there are several shapes.
 std::string shape_text(const std::vector<FrameStatistics>& frames) {
-  if (frames.empty()) return {};
-  const FrameStatistics& first = frames.front();
+  const auto presented = std::find_if(frames.begin(), frames.end(),
+                                      [](const FrameStatistics& frame) { return !is_target(frame.surface); });
+  if (presented == frames.end()) return {};
+  const FrameStatistics& first = *presented;
   uint32_t last_surface = 0;
   bool uniform = true;
   for (const FrameStatistics& frame : frames) {
+    if (is_target(frame.surface)) continue;
     last_surface = std::max(last_surface, frame.surface);
     uniform &= frame.width == first.width && frame.height == first.height && frame.format == first.format;
   }
@@ -28,43 +32,70 @@ std::string shape_text(const std::vector<FrameStatistics>& frames) {
   return fmt::format(", {}x{} {}", first.width, first.height, traits(first.format).name);
 }
 
-}  // namespace
-
-std::string summary_table(const RunRecord& run, const std::string& title) {
-  const RunCounts& counts = run.counts;
-  std::string out = fmt::format("{}: {} frames seen, {} captured{}", title, counts.seen, counts.captured,
-                                shape_text(run.frames));
+/// What came of the frames that have no rows.
+std::string shortfall_text(const RunCounts& counts) {
+  std::string out;
   if (counts.skipped > 0) out += fmt::format(", {} not asked for", counts.skipped);
   if (counts.dropped > 0) out += fmt::format(", {} dropped (queue full)", counts.dropped);
   if (counts.unsupported > 0) out += fmt::format(", {} in an unsupported format", counts.unsupported);
   if (counts.not_captured > 0) out += fmt::format(", {} could not be read back", counts.not_captured);
-  out += '\n';
+  return out + '\n';
+}
+
+/// A line per scheme.
+std::string rates_text(const std::vector<std::string>& names, const std::vector<SchemeStatistics>& totals) {
+  size_t width = 6;
+  for (const std::string& name : names) width = std::max(width, name.size());
+  std::string out = fmt::format("  {:<{}}  {:>9}  {:>12}  {:>8}  {:>7}  {:>9}  {:>8}\n", "scheme", width,
+                                "rate", "rate_payload", "bursts", "csb", "palette", "saving");
+  for (size_t i = 0; i < names.size(); ++i) {
+    const SchemeStatistics& sum = totals[i];
+    const uint64_t moved = sum.moved_bits();
+    out +=
+        fmt::format("  {:<{}}  {:>9.4f}  {:>12.4f}  {:>6.2f} %  {:>5.2f} %  {:>7.3f} %  {:>6.1f} %\n",
+                    names[i], width, sum.rate(), sum.rate_payload(),
+                    percent(sum.bursts * sum.burst_bits, moved), percent(sum.csb_bits, moved),
+                    percent(sum.palette_bits, moved), sum.rate() > 0 ? 100 * energy_saving(sum.rate()) : 0.0);
+  }
+  for (size_t i = 0; i < names.size(); ++i)
+    if (const SchemeStatistics& sum = totals[i]; sum.extra_bits > 0)
+      out += fmt::format("  {}: rate {:.4f} with the further traffic it causes\n", names[i],
+                         sum.rate_with_extra());
+  return out;
+}
+
+/// The images of the program's own framebuffers (--targets all).
+std::string targets_text(const RunRecord& run) {
+  const RunCounts& counts = run.target_counts;
+  if (counts.seen == 0) return {};
+  std::set<uint32_t> surfaces;
+  for (const FrameStatistics& frame : run.frames)
+    if (is_target(frame.surface)) surfaces.insert(frame.surface);
+  std::string out = fmt::format("  render targets: {} frames of {} surfaces captured{}", counts.captured,
+                                surfaces.size(), shortfall_text(counts));
+  if (run.measured_targets > 0) out += rates_text(run.scheme_names, run.target_totals);
+  return out;
+}
+
+}  // namespace
+
+std::string summary_table(const RunRecord& run, const std::string& title) {
+  const RunCounts& counts = run.counts;
+  std::string out = fmt::format("{}: {} frames seen, {} captured{}{}", title, counts.seen, counts.captured,
+                                shape_text(run.frames), shortfall_text(counts));
   if (run.measured_frames == 0) {
     if (counts.captured > 0)
       out +=
           "  no rates: frame 0 of a surface is warm-up and stays out of every sum; it takes a second frame\n";
-    return out;
+    return out + targets_text(run);
   }
-  size_t width = 6;
-  for (const std::string& name : run.scheme_names) width = std::max(width, name.size());
-  out += fmt::format("  {:<{}}  {:>9}  {:>12}  {:>8}  {:>7}  {:>9}  {:>8}\n", "scheme", width, "rate",
-                     "rate_payload", "bursts", "csb", "palette", "saving");
+  out += rates_text(run.scheme_names, run.totals) + targets_text(run);
   uint64_t checked = 0, mismatched = 0;
-  for (size_t i = 0; i < run.scheme_names.size(); ++i) {
-    const SchemeStatistics& sum = run.totals[i];
-    const uint64_t moved = sum.moved_bits();
-    out +=
-        fmt::format("  {:<{}}  {:>9.4f}  {:>12.4f}  {:>6.2f} %  {:>5.2f} %  {:>7.3f} %  {:>6.1f} %\n",
-                    run.scheme_names[i], width, sum.rate(), sum.rate_payload(),
-                    percent(sum.bursts * sum.burst_bits, moved), percent(sum.csb_bits, moved),
-                    percent(sum.palette_bits, moved), sum.rate() > 0 ? 100 * energy_saving(sum.rate()) : 0.0);
-    checked += sum.checked_blocks;
-    mismatched += sum.mismatched_blocks;
-  }
-  for (size_t i = 0; i < run.scheme_names.size(); ++i)
-    if (const SchemeStatistics& sum = run.totals[i]; sum.extra_bits > 0)
-      out += fmt::format("  {}: rate {:.4f} with the further traffic it causes\n", run.scheme_names[i],
-                         sum.rate_with_extra());
+  for (const std::vector<SchemeStatistics>* totals : {&run.totals, &run.target_totals})
+    for (const SchemeStatistics& sum : *totals) {
+      checked += sum.checked_blocks;
+      mismatched += sum.mismatched_blocks;
+    }
   if (checked > 0)
     out +=
         fmt::format("  verified: {} blocks encoded, decoded and compared, {} differ\n", checked, mismatched);

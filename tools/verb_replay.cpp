@@ -80,6 +80,7 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
   int64_t timeout_s = replay.timeout.count();
   add_run_options(app, replay.run);
   add_on_full_option(app, replay.run);
+  add_capture_options(app, replay.run);
   app.add_option("TRACE", options.traces, "Traces");
   app.add_option("--manifest", options.manifest, "Traces with checksum, category and frames")
       ->type_name("FILE");

@@ -27,6 +27,8 @@ namespace tilepress {
 namespace {
 
 constexpr const char* kShimName = "libtilepress-preload.so";
+constexpr const char* kTargetShimName =
+    "libtilepress-preload-gl.so";  // exports the names that --targets watches
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -59,6 +61,7 @@ std::optional<int> parse_options(int argc, char** argv, LaunchOptions& options) 
   app.prefix_command();
   add_run_options(app, options.run);
   add_on_full_option(app, options.run);
+  add_capture_options(app, options.run);
   app.add_option("--via", options.via, "How the shim gets into the program (default: auto)")
       ->type_name("auto|preload|glvnd")
       ->check([](const std::string& road) {
@@ -183,6 +186,8 @@ int report_nothing(const LaunchOptions& options, const SessionFolder& session, c
       "  looked for: eglSwapBuffers, eglSwapBuffersWithDamageKHR and EXT, glXSwapBuffers and their kin,\n"
       "  linked, by dlsym, or by eglGetProcAddress and glXGetProcAddress\n",
       stderr);
+  if (options.run.triggers == 0)
+    std::fputs("  a program that draws and presents nothing: --trigger finish,flush,readpixels\n", stderr);
   const std::vector<std::string> seen = session.seen();
   for (const std::string& entry : seen) std::fprintf(stderr, "  seen: %s\n", entry.c_str());
   if (seen.empty()) std::fputs("  seen: no process asked for any of them\n", stderr);
@@ -280,9 +285,10 @@ int verb_run(int argc, char** argv) {
   const auto program = find_program(options.program.front(), failure);
   if (!program) return fail(failure.status, failure.reason);
   std::string looked, error;
-  const auto shim = find_shim(kShimName, looked);
+  const char* shim_name = options.run.all_targets ? kTargetShimName : kShimName;
+  const auto shim = find_shim(shim_name, looked);
   if (!shim)
-    return fail(kExitLauncherFailed, std::string(kShimName) + ": not found (looked at " + looked + ")");
+    return fail(kExitLauncherFailed, std::string(shim_name) + ": not found (looked at " + looked + ")");
   bool made = false;
   if (!prepare_output(options.run.output, made, error)) return fail(kExitLauncherFailed, error);
   const auto remove_if_empty = [&] {

@@ -2,6 +2,7 @@
 #include "interposer/engine/capture.h"
 
 #include "interposer/engine/monotonic_clock.h"
+#include "interposer/engine/target_watch.h"
 
 #include <errno.h>
 #include <sys/auxv.h>
@@ -40,8 +41,6 @@ std::string damage_text(const TilepressPresent& present) {
   return text.empty() ? text : text.substr(1);
 }
 
-constexpr uint32_t kNoWindow = ~0u;
-
 }  // namespace
 
 Capture::Capture(const TilepressHost& host) : host_(host), pid_(getpid()), times_(pid_) {
@@ -59,8 +58,9 @@ PresentSource* Capture::source_of(const TilepressPresent& present) {
   std::lock_guard lock(mutex_);
   for (const Source& known : sources_)
     if (known.real == present.real) return known.source.get();
-  auto source =
-      present.api == TILEPRESS_EGL ? make_egl_source(host_, present) : make_glx_source(host_, present);
+  auto source = present.api == TILEPRESS_EGL   ? make_egl_source(host_, present)
+                : present.api == TILEPRESS_GLX ? make_glx_source(host_, present)
+                                               : make_osmesa_source(host_, present);
   if (source == nullptr) log_->write(LogLevel::kError, "the GL library lacks functions to read frames back");
   sources_.push_back({present.real, present.api, std::move(source)});
   return sources_.back().source.get();
@@ -92,44 +92,56 @@ void Capture::report(uint32_t surface, const std::string& reason) {
     log_->write(LogLevel::kWarn, "surface " + std::to_string(surface) + ": " + reason);
 }
 
-Capture::Outcome Capture::take(TilepressPresent& present, PresentSource& source, uint64_t begin_ns,
-                               uint32_t& window, CapturedFrame*& frame) {
-  WindowKey key{};
-  SurfaceShape shape;
-  std::string reason;
-  if (!source.describe(present, key, shape, reason)) {
-    log_->write(LogLevel::kDebug, reason);
-    return Outcome::kNotCaptured;
-  }
-  const SurfaceRegistry::Turn turn = registry_.turn(key, shape, begin_ns);
-  window = turn.window;
-  if (turn.forgotten) worker(present, source)->queue().submit_end_of(*turn.forgotten);
-  if (!options_.takes(turn.frame)) return Outcome::kSkipped;
-  if (!shape.format || !traits(*shape.format).modelled ||
-      std::max(shape.width, shape.height) > kMaxSurfaceSide) {
-    report(turn.surface, std::string("unsupported format") + (shape.format ? " " : "") +
-                             std::string(shape.format ? traits(*shape.format).name : ""));
-    return Outcome::kUnsupported;
+Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
+  Take take;
+  take.role = shot.key.role;
+  const SurfaceRegistry::Turn turn = registry_.turn(shot.key, shot.shape, shot.begin_ns);
+  take.window = turn.window;
+  take.begin_ns = shot.begin_ns;
+  if (turn.forgotten) worker.queue().submit_end_of(*turn.forgotten);
+  const auto ends_as = [&](Outcome outcome) {
+    take.outcome = outcome;
+    return take;
+  };
+  if (!options_.takes(turn.frame)) return ends_as(Outcome::kSkipped);
+  const std::optional<PixelFormat> format = shot.shape.format;
+  if (!format || !traits(*format).modelled ||
+      std::max(shot.shape.width, shot.shape.height) > kMaxSurfaceSide) {
+    std::string reason = "unsupported format";
+    if (shot.origin != "window") reason = shot.origin + ": " + reason;
+    if (format) reason.append(" ").append(traits(*format).name);
+    report(turn.surface, reason);
+    return ends_as(Outcome::kUnsupported);
   }
   const uint64_t wait_ns = now_ns();
-  frame = worker(present, source)->queue().acquire(options_.on_full == OnFull::kBlock);
-  if (frame == nullptr) return Outcome::kDropped;
+  take.frame = worker.queue().acquire(options_.on_full == OnFull::kBlock);
+  if (take.frame == nullptr) return ends_as(Outcome::kDropped);
   const uint64_t waited_ns = now_ns() - wait_ns;
-  if (!source.read(present, shape, *frame, reason)) {
+  CapturedFrame& frame = *take.frame;
+  if (std::string reason; !shot.read(frame, reason)) {
     report(turn.surface, "not captured: " + reason);
-    worker_.load()->queue().release(frame);
-    frame = nullptr;
-    return Outcome::kNotCaptured;
+    worker.queue().release(take.frame);
+    take.frame = nullptr;
+    return ends_as(Outcome::kNotCaptured);
   }
-  frame->window = turn.window;
-  frame->surface = turn.surface;
-  frame->frame = turn.frame;
-  frame->time_ns = begin_ns - start_ns_;
-  frame->interval_ns = turn.interval_ns;
-  frame->wait_ns = waited_ns;
-  frame->damage = damage_text(present);
-  frame->readback_ns = now_ns() - begin_ns - waited_ns;
-  return Outcome::kTaken;
+  frame.window = turn.window;
+  frame.surface = turn.surface;
+  frame.frame = turn.frame;
+  frame.time_ns = shot.begin_ns - start_ns_;
+  frame.interval_ns = turn.interval_ns;
+  frame.wait_ns = waited_ns;
+  frame.role = shot.key.role;
+  frame.cause = shot.cause;
+  frame.origin = shot.origin;
+  frame.srgb = shot.shape.srgb;
+  frame.damage = shot.damage;
+  frame.readback_ns = now_ns() - shot.begin_ns - waited_ns;
+  return ends_as(Outcome::kTaken);
+}
+
+bool Capture::is_capturing() const {
+  const CaptureWorker* known = worker_;
+  return enabled_ && !counting_only_ && (known == nullptr || known->alive());
 }
 
 bool Capture::begin(TilepressPresent& present) {
@@ -149,56 +161,88 @@ void Capture::end(TilepressPresent& present, bool presented) {
 }
 
 bool Capture::begin_capture(TilepressPresent& present, uint64_t begin_ns) {
-  const CaptureWorker* known = worker_;
-  if (!enabled_ || (known != nullptr && !known->alive())) return false;
+  if (!is_capturing()) return false;
   PresentSource* source = source_of(present);
   if (source == nullptr) return false;
-  uint32_t window = kNoWindow;
-  CapturedFrame* frame = nullptr;
-  const Outcome outcome = take(present, *source, begin_ns, window, frame);
+  if (present.api == TILEPRESS_OSMESA && !source->find_current(present)) return false;  // another API's, then
+  if (options_.all_targets && source->context() != nullptr) {
+    take_attachments(present, *source, targets_left(source->gl()), FramebufferUse::kDraw,
+                     SurfaceRole::kTarget, "target");
+    begin_ns = now_ns();
+  }
+  Shot shot;
+  shot.begin_ns = begin_ns;
+  shot.damage = damage_text(present);
+  if (present.api == TILEPRESS_OSMESA) shot.origin = "buffer";
+  Take taken;
+  if (std::string reason; !source->describe(present, shot.key, shot.shape, reason)) {
+    log_->write(LogLevel::kDebug, reason);
+  } else if (CaptureWorker* made = worker(present, *source)) {
+    shot.read = [&](CapturedFrame& frame, std::string& why) {
+      return source->read(present, shot.shape, frame, why);
+    };
+    taken = take(shot, *made);
+  }
   worker(present, *source);
   counts_.roads |= strcmp(present.via, "glvnd") == 0 ? kRoadGlvnd : kRoadPreload;
   if (!enabled_) return false;
-  present.ticket[0] = reinterpret_cast<void*>(outcome);
-  present.ticket[1] = reinterpret_cast<void*>(uintptr_t{window});
-  present.ticket[2] = frame;
+  present.ticket[0] = reinterpret_cast<void*>(taken.outcome);
+  present.ticket[1] = reinterpret_cast<void*>(uintptr_t{taken.window});
+  present.ticket[2] = taken.frame;
   return true;
 }
 
 void Capture::end_capture(TilepressPresent& present, bool presented) {
-  const auto outcome = static_cast<Outcome>(reinterpret_cast<uintptr_t>(present.ticket[0]));
-  const auto window = static_cast<uint32_t>(reinterpret_cast<uintptr_t>(present.ticket[1]));
-  auto* frame = static_cast<CapturedFrame*>(present.ticket[2]);
+  Take taken;
+  taken.outcome = static_cast<Outcome>(reinterpret_cast<uintptr_t>(present.ticket[0]));
+  taken.window = static_cast<uint32_t>(reinterpret_cast<uintptr_t>(present.ticket[1]));
+  taken.frame = static_cast<CapturedFrame*>(present.ticket[2]);
+  taken.begin_ns = reinterpret_cast<uintptr_t>(present.ticket[3]);
+  if (presented)
+    commit(taken);
+  else if (taken.frame != nullptr)
+    worker_.load()->queue().release(taken.frame);
+}
+
+void Capture::commit(const Take& taken) {
+  RoleCounts& counts = counts_.of(taken.role);
   FrameQueue& queue = worker_.load()->queue();
-  if (!presented) {
-    if (frame != nullptr) queue.release(frame);
-    return;
-  }
-  ++counts_.seen;
-  if (window != kNoWindow) registry_.presented(window, reinterpret_cast<uintptr_t>(present.ticket[3]));
-  switch (outcome) {
+  ++counts.seen;
+  if (taken.window != Take().window) registry_.presented(taken.window, taken.begin_ns);
+  switch (taken.outcome) {
     case Outcome::kTaken:
-      return queue.submit(frame);
+      return queue.submit(taken.frame);
     case Outcome::kSkipped:
-      ++counts_.skipped;
+      ++counts.skipped;
       break;
     case Outcome::kDropped:
-      ++counts_.dropped;
+      ++counts.dropped;
       break;
     case Outcome::kUnsupported:
-      ++counts_.unsupported;
+      ++counts.unsupported;
       break;
     case Outcome::kNotCaptured:
-      ++counts_.not_captured;
+      ++counts.not_captured;
       break;
   }
   queue.wake();
 }
 
-void Capture::contexts_going(uint32_t api, void* display) {
-  std::lock_guard lock(mutex_);
-  for (const Source& known : sources_)
-    if (known.api == api && known.source != nullptr) known.source->release(display);
+void Capture::contexts_going(uint32_t api, void* display, void* context) {
+  {
+    std::lock_guard lock(mutex_);
+    for (const Source& known : sources_)
+      if (known.api == api && known.source != nullptr) known.source->release(display);
+  }
+  if (context == nullptr) return;
+  forget_targets(context);
+  if (api == TILEPRESS_OSMESA) surface_going(context, 0);
+}
+
+void Capture::forget_targets(const void* context, uintptr_t image, uintptr_t mask) {
+  CaptureWorker* known = worker_;
+  for (const uint32_t window : registry_.forget_targets(context, image, mask))
+    if (known != nullptr) known->queue().submit_end_of(window);
 }
 
 void Capture::surface_going(void* display, uintptr_t surface) {

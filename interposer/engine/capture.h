@@ -2,11 +2,13 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "interposer/engine/bound_framebuffer.h"
 #include "interposer/engine/capture_worker.h"
 #include "interposer/engine/present_source.h"
 #include "interposer/engine/present_times.h"
@@ -25,7 +27,8 @@ class Capture {
   /// As TilepressEngine.begin and end: the capture, and around it what --measure-overhead asks for.
   bool begin(TilepressPresent& present);
   void end(TilepressPresent& present, bool presented);
-  void contexts_going(uint32_t api, void* display);
+  void gl_call(const TilepressGlCall& call);
+  void contexts_going(uint32_t api, void* display, void* context);
   void surface_going(void* display, uintptr_t surface);
   void finish();
 
@@ -36,13 +39,45 @@ class Capture {
     uint32_t api;
     std::unique_ptr<PresentSource> source;  ///< null: cannot be read
   };
+  /// A frame that could be taken.
+  struct Shot {
+    WindowKey key;
+    SurfaceShape shape;
+    const char* cause = "swap";
+    std::string origin = "window";
+    std::string damage;
+    uint64_t begin_ns = 0;  ///< when its capture began
+    std::function<bool(CapturedFrame& frame, std::string& reason)> read;
+  };
+  /// What came of it, between begin and end.
+  struct Take {
+    Outcome outcome = Outcome::kNotCaptured;
+    SurfaceRole role = SurfaceRole::kPresented;
+    uint32_t window = ~0u;  ///< none
+    CapturedFrame* frame = nullptr;
+    uint64_t begin_ns = 0;
+  };
+
   bool begin_capture(TilepressPresent& present, uint64_t begin_ns);
   void end_capture(TilepressPresent& present, bool presented);
   PresentSource* source_of(const TilepressPresent& present);
-  Outcome take(TilepressPresent& present, PresentSource& source, uint64_t begin_ns, uint32_t& window,
-               CapturedFrame*& frame);
+  Take take(const Shot& shot, CaptureWorker& worker);
+  Take miss(const Shot& shot, const std::string& reason);
+  void commit(const Take& take);
   void report(uint32_t surface, const std::string& reason);
   CaptureWorker* worker(const TilepressPresent& present, const PresentSource& source);
+  bool is_capturing() const;
+  void forget_targets(const void* context, uintptr_t image = 0, uintptr_t mask = 0);
+
+  // In capture_gl.cpp: frames that no presenting call ends.
+  PresentSource* source_of(const TilepressGlCall& call, TilepressPresent& present);
+  void* public_function(uint32_t api);
+  void trigger(const TilepressGlCall& call, const TilepressPresent& present, PresentSource& source);
+  void take_default_framebuffer(const TilepressGlCall& call, const TilepressPresent& present,
+                                PresentSource& source, FramebufferUse use);
+  void take_attachments(const TilepressPresent& present, PresentSource& source,
+                        const std::vector<Attachment>& attachments, FramebufferUse use, SurfaceRole role,
+                        const char* cause);
 
   const TilepressHost host_;
   const int64_t pid_;
@@ -56,7 +91,8 @@ class Capture {
   SurfaceRegistry registry_;
   std::mutex mutex_;  ///< guards sources_ and the making of worker_
   std::vector<Source> sources_;
-  std::atomic<CaptureWorker*> worker_{nullptr};  ///< never destroyed: the process may end at any time
+  std::atomic<void*> public_[TILEPRESS_API_COUNT] = {};  ///< presenting functions of libraries known by name
+  std::atomic<CaptureWorker*> worker_{nullptr};          ///< never destroyed: the process may end at any time
 };
 
 }  // namespace tilepress

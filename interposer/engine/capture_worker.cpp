@@ -18,7 +18,8 @@ namespace {
 
 constexpr uint32_t kQueueDepth = 3;
 constexpr const char* kPresentColumns =
-    "frame,surface,readback_ns,read_ns,wait_ns,damage,bind_ns,hand_off_ns,interval_ns\n";
+    "frame,surface,readback_ns,read_ns,wait_ns,damage,bind_ns,hand_off_ns,interval_ns,cause\n";
+constexpr const char* kSurfaceColumns = "surface,role,origin,width,height,format,color_space\n";
 
 void note_run_folder(const std::string& path, int64_t pid) {
   const char* session = getenv("TILEPRESS_SESSION");
@@ -62,7 +63,9 @@ void CaptureWorker::run() {
     for (bool last = false; !last;) {
       last = queue_.closed_and_empty();
       CapturedFrame* frame = last ? nullptr : queue_.next();
-      if (!writer_.is_open() && alive() && counts_.seen > 0 && !create_directory()) give_up(writer_.error());
+      if (!writer_.is_open() && alive() && counts_.presented.seen + counts_.targets.seen > 0 &&
+          !create_directory())
+        give_up(writer_.error());
       if (frame != nullptr) {
         if (frame->last_of_window)
           surfaces_.erase(frame->window);
@@ -89,7 +92,9 @@ bool CaptureWorker::create_directory() {
   for (int suffix = 2; lstat(path.c_str(), &status) == 0; ++suffix)
     path = stem + "-" + std::to_string(suffix);
   if (!writer_.create(path, info_, options_)) return false;
-  if (!presents_.create(path + "/presents.csv", kPresentColumns)) return false;
+  if (!presents_.create(path + "/presents.csv", kPresentColumns) ||
+      !surface_rows_.create(path + "/surfaces.csv", kSurfaceColumns))
+    return false;
   pictures_.open(path, options_);
   live_.open(path, info_, options_);
   note_run_folder(path, info_.pid);
@@ -99,17 +104,19 @@ bool CaptureWorker::create_directory() {
 
 void CaptureWorker::process(const CapturedFrame& frame) {
   auto found = surfaces_.find(frame.window);
-  if (found == surfaces_.end() || found->second.number != frame.surface)
+  if (found == surfaces_.end() || found->second.number != frame.surface) {
+    if (!append_surface(frame)) return give_up(writer_.path() + "/surfaces.csv: cannot be written");
     found = surfaces_
                 .insert_or_assign(frame.window,
                                   Surface{frame.surface, SurfaceEngine(options_.schemes, options_.model)})
                 .first;
+  }
   statistics_.frame = frame.frame;
   statistics_.surface = frame.surface;
   statistics_.time_ns = frame.time_ns;
   statistics_.readback_ns = frame.readback_ns;
   BlockBits* bits = pictures_.bits_for(frame.frame);
-  const bool watched = live_.picture_wanted();
+  const bool watched = frame.role == SurfaceRole::kPresented && live_.picture_wanted();
   if (watched && bits == nullptr) bits = &watched_bits_;
   found->second.engine.note_block_bits(bits);
   found->second.engine.process(frame.view, statistics_);
@@ -117,9 +124,10 @@ void CaptureWorker::process(const CapturedFrame& frame) {
   dump_frame(frame, log_);
   if (!append_present(frame)) return give_up(writer_.path() + "/presents.csv: cannot be written");
   if (!writer_.append(statistics_)) return give_up(writer_.error());
-  ++counts_.captured;
+  ++counts_.of(frame.role).captured;
   // Without the frame in hand: it is pending until the queue has it back.
-  live_.update(statistics_, writer_.totals(), counts_now(), queue_.pending() - 1, kQueueDepth);
+  if (frame.role == SurfaceRole::kPresented)
+    live_.update(statistics_, writer_.totals(), counts_.presented.now(), queue_.pending() - 1, kQueueDepth);
   if (watched)
     live_.set_picture_error(
         live_picture_.write(writer_.path(), live_.state(), frame.view, *bits, options_.model.burst_bits));
@@ -133,22 +141,19 @@ bool CaptureWorker::append_present(const CapturedFrame& frame) {
   row += frame.damage;
   for (const uint64_t value : {frame.bind_ns, frame.hand_off_ns, frame.interval_ns})
     (row += ',') += std::to_string(value);
-  return presents_.append(row += '\n');
+  return presents_.append(row.append(",").append(frame.cause).append("\n"));
 }
 
-RunCounts CaptureWorker::counts_now() const {
-  RunCounts counts;
-  counts.seen = counts_.seen;
-  counts.captured = counts_.captured;
-  counts.dropped = counts_.dropped;
-  counts.skipped = counts_.skipped;
-  counts.unsupported = counts_.unsupported;
-  counts.not_captured = counts_.not_captured;
-  return counts;
+bool CaptureWorker::append_surface(const CapturedFrame& frame) {
+  const bool target = frame.role == SurfaceRole::kTarget;
+  return surface_rows_.append(
+      std::to_string(frame.surface) + (target ? ",target," : ",presented,") + frame.origin + "," +
+      std::to_string(frame.view.width) + "," + std::to_string(frame.view.height) + "," +
+      std::string(traits(frame.view.format).name) + (frame.srgb ? ",srgb\n" : ",linear\n"));
 }
 
 void CaptureWorker::publish_counts() {
-  writer_.set_counts(counts_now());
+  writer_.set_counts(counts_.presented.now(), counts_.targets.now());
   if (counts_.roads == (kRoadPreload | kRoadGlvnd) && info_.via != "preload+glvnd") {
     info_.via = "preload+glvnd";
     writer_.set_info(info_);

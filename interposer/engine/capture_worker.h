@@ -22,9 +22,14 @@ namespace tilepress {
 constexpr uint32_t kRoadPreload = 1, kRoadGlvnd = 2;
 
 /// Counts of the process, raised by the presenting threads (and `captured` by the worker).
-struct CaptureCounts {
+struct RoleCounts {
   std::atomic<uint64_t> seen{0}, captured{0}, dropped{0}, skipped{0}, unsupported{0}, not_captured{0};
+  RunCounts now() const { return {seen, captured, dropped, skipped, unsupported, not_captured}; }
+};
+struct CaptureCounts {
+  RoleCounts presented, targets;
   std::atomic<uint32_t> roads{0};
+  RoleCounts& of(SurfaceRole role) { return role == SurfaceRole::kTarget ? targets : presented; }
 };
 
 /// Owns the run directory, which it creates at the first present: a process that presents nothing leaves no
@@ -49,8 +54,8 @@ class CaptureWorker {
   bool create_directory();
   void process(const CapturedFrame& frame);
   bool append_present(const CapturedFrame& frame);
+  bool append_surface(const CapturedFrame& frame);
   void publish_counts();
-  RunCounts counts_now() const;
   void give_up(const std::string& reason);
 
   const RunOptions options_;
@@ -59,7 +64,8 @@ class CaptureWorker {
   const ShimLog& log_;
   FrameQueue queue_;
   RunWriter writer_;
-  AppendFile presents_;  ///< presents.csv
+  AppendFile presents_;      ///< presents.csv
+  AppendFile surface_rows_;  ///< surfaces.csv
   FramePictures pictures_;
   LiveWriter live_;
   LivePictureWriter live_picture_;

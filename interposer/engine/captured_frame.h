@@ -6,6 +6,7 @@
 #include <string>
 
 #include "interposer/engine/pixel_memory.h"
+#include "interposer/engine/surface_registry.h"
 #include "tilepress/surface.h"
 
 namespace tilepress {
@@ -23,6 +24,10 @@ struct CapturedFrame {
   uint64_t bind_ns = 0;      ///< of readback_ns, in making a private context current and the program's again
   uint64_t hand_off_ns = 0;  ///< giving the frame to the worker, after the real call
   uint64_t interval_ns = 0;  ///< since the window's last present; 0 = its first
+  SurfaceRole role = SurfaceRole::kPresented;
+  const char* cause = "swap";  ///< why it was taken: "swap", "finish", "flush", "readpixels", "target"
+  std::string origin;          ///< of its surface: "window", "texture 3"
+  bool srgb = false;           ///< its values are encoded as sRGB
   std::string damage;  ///< "x y width height;…" from the bottom left, as presented; empty = everything
 
   SurfaceView view;  ///< lies in `pixels`

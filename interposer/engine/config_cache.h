@@ -15,6 +15,7 @@ struct KnownConfig {
   void* config = nullptr;             ///< EGLConfig or GLXFBConfig; good as long as the display
   std::optional<PixelFormat> format;  ///< empty: its channels fit none
   bool double_buffered = true;        ///< GLX; of an EGL surface it is the surface that knows
+  bool srgb_capable = false;          ///< GLX, as is this
 };
 
 /// By display and number (of config, and of screen where numbers are per screen). Thread-safe.

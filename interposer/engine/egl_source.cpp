@@ -2,8 +2,13 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
 #include "interposer/engine/config_cache.h"
 #include "interposer/engine/context_pool.h"
+#include "interposer/engine/context_version.h"
 #include "interposer/engine/gl_readback.h"
 #include "interposer/engine/in_context_readback.h"
 #include "interposer/engine/library_symbols.h"
@@ -22,10 +27,12 @@ struct EglFunctions {
   decltype(&eglGetCurrentContext) GetCurrentContext = nullptr;
   decltype(&eglGetCurrentDisplay) GetCurrentDisplay = nullptr;
   decltype(&eglGetCurrentSurface) GetCurrentSurface = nullptr;
+  decltype(&eglGetError) GetError = nullptr;
   decltype(&eglGetProcAddress) GetProcAddress = nullptr;
   decltype(&eglMakeCurrent) MakeCurrent = nullptr;
   decltype(&eglQueryAPI) QueryAPI = nullptr;
   decltype(&eglQueryContext) QueryContext = nullptr;
+  decltype(&eglQueryString) QueryString = nullptr;
   decltype(&eglQuerySurface) QuerySurface = nullptr;
 
   bool load(const LibrarySymbols& library) {
@@ -37,9 +44,10 @@ struct EglFunctions {
            fill(CreateContext, "eglCreateContext") && fill(DestroyContext, "eglDestroyContext") &&
            fill(GetConfigAttrib, "eglGetConfigAttrib") && fill(GetCurrentContext, "eglGetCurrentContext") &&
            fill(GetCurrentDisplay, "eglGetCurrentDisplay") &&
-           fill(GetCurrentSurface, "eglGetCurrentSurface") && fill(GetProcAddress, "eglGetProcAddress") &&
-           fill(MakeCurrent, "eglMakeCurrent") && fill(QueryAPI, "eglQueryAPI") &&
-           fill(QueryContext, "eglQueryContext") && fill(QuerySurface, "eglQuerySurface");
+           fill(GetCurrentSurface, "eglGetCurrentSurface") && fill(GetError, "eglGetError") &&
+           fill(GetProcAddress, "eglGetProcAddress") && fill(QueryContext, "eglQueryContext") &&
+           fill(QueryString, "eglQueryString") && fill(MakeCurrent, "eglMakeCurrent") &&
+           fill(QueryAPI, "eglQueryAPI") && fill(QuerySurface, "eglQuerySurface");
   }
 };
 
@@ -61,8 +69,70 @@ class EglSource final : public PresentSource {
     const auto config = config_of(present);
     if (!config) return fail(reason, "the surface has no config");
     key = {present.display, present.surface};
-    shape = {static_cast<uint32_t>(width), static_cast<uint32_t>(height), config->format};
+    shape = {static_cast<uint32_t>(width), static_cast<uint32_t>(height), config->format, is_srgb(present)};
     return true;
+  }
+
+  bool find_current(TilepressPresent& present) override {
+    if (egl_.GetCurrentContext() == EGL_NO_CONTEXT) return false;
+    present.display = egl_.GetCurrentDisplay();
+    present.surface = reinterpret_cast<uintptr_t>(egl_.GetCurrentSurface(EGL_DRAW));
+    return true;
+  }
+  const void* context() const override { return egl_.GetCurrentContext(); }
+  const GlFunctions& gl() const override { return gl_; }
+
+  bool beside(const std::function<void()>& work, std::string& reason) override {
+    const EGLDisplay display = egl_.GetCurrentDisplay();
+    const EGLContext context = egl_.GetCurrentContext();
+    const EGLSurface draw = egl_.GetCurrentSurface(EGL_DRAW), read = egl_.GetCurrentSurface(EGL_READ);
+    const ContextPool::Key key{display, reinterpret_cast<uintptr_t>(context)};
+    if (context_is_destroyed(display)) {
+      reason = "the program's context is destroyed";
+      return false;
+    }
+    EGLContext own = sharing_.take(key);
+    if (own == EGL_NO_CONTEXT) own = create_sharing(display, context);
+    const bool bound =
+        own != EGL_NO_CONTEXT && (egl_.MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, own) ||
+                                  egl_.MakeCurrent(display, draw, read, own));
+    if (bound) work();
+    if (bound && !egl_.MakeCurrent(display, draw, read, context))
+      reason = "the program's context could not be made current again";
+    if (own != EGL_NO_CONTEXT) sharing_.give(key, own);
+    if (!bound) reason = "no private context can share objects with the program's";
+    return bound;
+  }
+
+  uint32_t take_error() override { return static_cast<uint32_t>(egl_.GetError()); }
+
+  // By doing again what raises it. Of the errors that no harmless call raises, the next call of the program's
+  // own finds none.
+  void put_back_error(uint32_t error) override {
+    const EGLDisplay display = egl_.GetCurrentDisplay();
+    EGLint value = 0;
+    switch (error) {
+      case EGL_BAD_DISPLAY:
+        egl_.QuerySurface(EGL_NO_DISPLAY, EGL_NO_SURFACE, EGL_WIDTH, &value);
+        break;
+      case EGL_BAD_SURFACE:
+        egl_.QuerySurface(display, EGL_NO_SURFACE, EGL_WIDTH, &value);
+        break;
+      case EGL_BAD_CONTEXT:
+        egl_.QueryContext(display, EGL_NO_CONTEXT, EGL_CONFIG_ID, &value);
+        break;
+      case EGL_BAD_ATTRIBUTE:
+        egl_.QueryContext(display, egl_.GetCurrentContext(), EGL_BAD_ATTRIBUTE, &value);
+        break;
+      case EGL_BAD_CONFIG:
+        egl_.GetConfigAttrib(display, nullptr, EGL_RED_SIZE, &value);
+        break;
+      case EGL_BAD_PARAMETER:
+        egl_.BindAPI(0);
+        break;
+      default:
+        egl_.GetError();
+    }
   }
 
   bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
@@ -76,13 +146,14 @@ class EglSource final : public PresentSource {
       default:
         break;
     }
-    if (read_in_program_context(gl_, shape, is_double_buffered(present), frame)) return true;
+    if (read_in_program_context(gl_, shape, buffer_of(present), frame)) return true;
     if (reason.empty()) reason = "the program's context cannot be read";
     return false;
   }
 
   void release(void* display) override {
-    for (void* own : pool_.take_all(display)) egl_.DestroyContext(display, own);
+    for (ContextPool* pool : {&pool_, &sharing_})
+      for (void* own : pool->take_all(display)) egl_.DestroyContext(display, own);
     configs_.forget(display);
   }
 
@@ -138,11 +209,11 @@ class EglSource final : public PresentSource {
     return taken ? Attempt::kRead : Attempt::kNotBound;
   }
 
-  bool is_double_buffered(const TilepressPresent& present) const {
+  GLenum buffer_of(const TilepressPresent& present) const {
     EGLint buffer = EGL_BACK_BUFFER;
     egl_.QuerySurface(present.display, reinterpret_cast<EGLSurface>(present.surface), EGL_RENDER_BUFFER,
                       &buffer);
-    return buffer == EGL_BACK_BUFFER;
+    return buffer == EGL_BACK_BUFFER || version_of(gl_).embedded ? GL_BACK : GL_FRONT;
   }
 
   std::optional<KnownConfig> config_of(const TilepressPresent& present) {
@@ -169,6 +240,49 @@ class EglSource final : public PresentSource {
             attribute(display, config, EGL_COLOR_COMPONENT_TYPE_EXT) == EGL_COLOR_COMPONENT_TYPE_FLOAT_EXT};
   }
 
+  bool is_srgb(const TilepressPresent& present) const {
+    const char* extensions = egl_.QueryString(present.display, EGL_EXTENSIONS);
+    const char* version = egl_.QueryString(present.display, EGL_VERSION);
+    const bool known = (extensions != nullptr && strstr(extensions, "EGL_KHR_gl_colorspace") != nullptr) ||
+                       (version != nullptr && strncmp(version, "1.5", 3) == 0);
+    EGLint encoding = EGL_GL_COLORSPACE_LINEAR;
+    return known &&
+           egl_.QuerySurface(present.display, reinterpret_cast<EGLSurface>(present.surface),
+                             EGL_GL_COLORSPACE, &encoding) &&
+           encoding == EGL_GL_COLORSPACE_SRGB;
+  }
+
+  // A context that shares with `other`, which is current: of its API and config, with its way to tell resets.
+  EGLContext create_sharing(EGLDisplay display, EGLContext other) const {
+    EGLint id = 0, count = 0, type = EGL_OPENGL_ES_API, version = 2;
+    EGLConfig config = nullptr;
+    egl_.QueryContext(display, other, EGL_CONFIG_ID, &id);
+    egl_.QueryContext(display, other, EGL_CONTEXT_CLIENT_TYPE, &type);
+    egl_.QueryContext(display, other, EGL_CONTEXT_CLIENT_VERSION, &version);
+    const EGLint wanted[] = {EGL_CONFIG_ID, id, EGL_NONE};
+    if (id != 0 && (!egl_.ChooseConfig(display, wanted, &config, 1, &count) || count != 1))
+      return EGL_NO_CONTEXT;
+    const bool embedded = type == EGL_OPENGL_ES_API;
+    const EGLenum program_api = egl_.QueryAPI();
+    if (!egl_.BindAPI(static_cast<EGLenum>(type))) return EGL_NO_CONTEXT;
+    EGLContext context = EGL_NO_CONTEXT;
+    for (const EGLint major : {3, std::max(version, 2)})
+      for (const EGLint strategy : {0, EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                    EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT})
+        for (const EGLint profile : {0, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT}) {
+          if (context != EGL_NO_CONTEXT || (embedded && profile != 0)) continue;
+          std::vector<EGLint> wish;
+          if (embedded || profile != 0) wish = {EGL_CONTEXT_CLIENT_VERSION, major};
+          if (profile != 0)
+            wish.insert(wish.end(), {EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK, profile});
+          if (strategy != 0) wish.insert(wish.end(), {strategy, EGL_LOSE_CONTEXT_ON_RESET});
+          wish.push_back(EGL_NONE);
+          context = egl_.CreateContext(display, config, other, wish.data());
+        }
+    egl_.BindAPI(program_api);
+    return context;
+  }
+
   EGLContext create(EGLDisplay display, EGLConfig config) const {
     const EGLint renderable = attribute(display, config, EGL_RENDERABLE_TYPE);
     const EGLenum program_api = egl_.QueryAPI();
@@ -187,7 +301,8 @@ class EglSource final : public PresentSource {
 
   const EglFunctions egl_;
   const GlFunctions gl_;
-  ContextPool pool_;
+  ContextPool pool_;     ///< by config
+  ContextPool sharing_;  ///< by the program's context
   ConfigCache configs_;
 };
 

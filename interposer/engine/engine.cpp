@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "interposer/engine/capture.h"
+#include "interposer/engine/target_watch.h"
 
 namespace tilepress {
 namespace {
@@ -52,11 +53,21 @@ Capture* known_capture() {
   return known != nullptr && known->pid() == getpid() ? known : nullptr;
 }
 
-void contexts_going(uint32_t api, void* display) {
+void gl_call(const TilepressGlCall* call) {
   if (inside) return;
   inside = true;
   try {
-    if (Capture* known = known_capture()) known->contexts_going(api, display);
+    capture_of_this_process()->gl_call(*call);
+  } catch (...) {
+  }
+  inside = false;
+}
+
+void contexts_going(uint32_t api, void* display, void* context) {
+  if (inside) return;
+  inside = true;
+  try {
+    if (Capture* known = known_capture()) known->contexts_going(api, display, context);
   } catch (...) {
   }
   inside = false;
@@ -82,7 +93,7 @@ __attribute__((destructor)) void at_library_end() {
   finish();
 }
 
-constexpr TilepressEngine kEngine = {TILEPRESS_ENGINE_VERSION, begin,         end,
+constexpr TilepressEngine kEngine = {TILEPRESS_ENGINE_VERSION, begin,         end,   gl_call, drawn_mark,
                                      contexts_going,           surface_going, finish};
 
 }  // namespace

@@ -9,8 +9,18 @@ bool GlFunctions::load(const Lookup& look_up) {
     return function != nullptr;
   };
   fill(ReadBuffer, "glReadBuffer");
-  fill(BindFramebuffer, "glBindFramebuffer");
   fill(BindBuffer, "glBindBuffer");
+  fill(BindFramebuffer, "glBindFramebuffer");
+  fill(CheckFramebufferStatus, "glCheckFramebufferStatus");
+  fill(GetFramebufferAttachmentParameteriv, "glGetFramebufferAttachmentParameteriv");
+  fill(IsTexture, "glIsTexture");
+  fill(BindTexture, "glBindTexture");
+  fill(GetTexLevelParameteriv, "glGetTexLevelParameteriv");
+  fill(IsRenderbuffer, "glIsRenderbuffer");
+  fill(BindRenderbuffer, "glBindRenderbuffer");
+  fill(GetRenderbufferParameteriv, "glGetRenderbufferParameteriv");
+  fill(GetTextureLevelParameteriv, "glGetTextureLevelParameteriv");
+  fill(GetNamedRenderbufferParameteriv, "glGetNamedRenderbufferParameteriv");
   return fill(GetString, "glGetString") && fill(GetIntegerv, "glGetIntegerv") &&
          fill(GetError, "glGetError") && fill(PixelStorei, "glPixelStorei") &&
          fill(ReadPixels, "glReadPixels");

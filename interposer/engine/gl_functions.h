@@ -7,19 +7,30 @@
 
 namespace tilepress {
 
-/// Pointers without a remark are set, or the table is not usable.
+/// The first block is set, or the table is not usable; of the others any may be null.
 struct GlFunctions {
   const GLubyte* (*GetString)(GLenum) = nullptr;
   void (*GetIntegerv)(GLenum, GLint*) = nullptr;
   GLenum (*GetError)() = nullptr;
   void (*PixelStorei)(GLenum, GLint) = nullptr;
-  void (*ReadBuffer)(GLenum) = nullptr;               ///< null in OpenGL ES 2
-  void (*BindFramebuffer)(GLenum, GLuint) = nullptr;  ///< may be null
-  void (*BindBuffer)(GLenum, GLuint) = nullptr;       ///< may be null
   void (*ReadPixels)(GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void*) = nullptr;
 
+  void (*ReadBuffer)(GLenum) = nullptr;
+  void (*BindBuffer)(GLenum, GLuint) = nullptr;
+  void (*BindFramebuffer)(GLenum, GLuint) = nullptr;
+  GLenum (*CheckFramebufferStatus)(GLenum) = nullptr;
+  void (*GetFramebufferAttachmentParameteriv)(GLenum, GLenum, GLenum, GLint*) = nullptr;
+  GLboolean (*IsTexture)(GLuint) = nullptr;
+  void (*BindTexture)(GLenum, GLuint) = nullptr;
+  void (*GetTexLevelParameteriv)(GLenum, GLint, GLenum, GLint*) = nullptr;
+  GLboolean (*IsRenderbuffer)(GLuint) = nullptr;
+  void (*BindRenderbuffer)(GLenum, GLuint) = nullptr;
+  void (*GetRenderbufferParameteriv)(GLenum, GLenum, GLint*) = nullptr;
+  void (*GetTextureLevelParameteriv)(GLuint, GLint, GLenum, GLint*) = nullptr;  ///< OpenGL 4.5
+  void (*GetNamedRenderbufferParameteriv)(GLuint, GLenum, GLint*) = nullptr;    ///< OpenGL 4.5
+
   using Lookup = std::function<void*(const char*)>;
-  /// False if a function is missing.
+  /// False if a function of the first block is missing.
   bool load(const Lookup& look_up);
 };
 

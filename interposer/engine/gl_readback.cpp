@@ -48,6 +48,7 @@ std::optional<PixelFormat> format_of(const ChannelBits& bits) {
   const auto is = [&](int red, int green, int blue, int alpha) {
     return bits.red == red && bits.green == green && bits.blue == blue && bits.alpha == alpha;
   };
+  if (bits.integer) return std::nullopt;
   if (bits.floating) return is(16, 16, 16, 16) ? std::optional(PixelFormat::kRgba16f) : std::nullopt;
   if (is(8, 8, 8, 8)) return PixelFormat::kRgba8;
   if (is(8, 8, 8, 0)) return PixelFormat::kRgbx8;

@@ -14,6 +14,7 @@ namespace tilepress {
 struct ChannelBits {
   int red = 0, green = 0, blue = 0, alpha = 0;
   bool floating = false;
+  bool integer = false;  ///< not normalized, or signed
 };
 
 /// The pixel format whose memory layout holds exactly these channels; empty if there is none.

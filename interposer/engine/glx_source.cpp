@@ -4,6 +4,7 @@
 
 #include "interposer/engine/config_cache.h"
 #include "interposer/engine/context_pool.h"
+#include "interposer/engine/context_version.h"
 #include "interposer/engine/display_ends.h"
 #include "interposer/engine/drawable_size.h"
 
@@ -61,6 +62,7 @@ class GlxSource final : public PresentSource {
   GlxSource(const GlxFunctions& glx, const GlFunctions& gl, DrawableSize size)
       : glx_(glx), gl_(gl), size_(std::move(size)) {
     DisplayEnds::instance().add(&pool_, &configs_);
+    DisplayEnds::instance().add(&sharing_, &configs_);
   }
 
   bool describe(const TilepressPresent& present, WindowKey& key, SurfaceShape& shape,
@@ -81,8 +83,41 @@ class GlxSource final : public PresentSource {
     if (!config) return fail(reason, "the context has no framebuffer config");
     if (width < 1 || height < 1) return fail(reason, "the drawable has no pixels");
     key = {display, present.surface};
-    shape = {width, height, config->format};
+    shape = {width, height, config->format, config->srgb_capable && is_srgb()};
     return true;
+  }
+
+  bool find_current(TilepressPresent& present) override {
+    if (glx_.GetCurrentContext() == nullptr) return false;
+    present.display = glx_.GetCurrentDisplay();
+    present.surface = glx_.GetCurrentDrawable();
+    return true;
+  }
+  const void* context() const override { return glx_.GetCurrentContext(); }
+  const GlFunctions& gl() const override { return gl_; }
+
+  bool beside(const std::function<void()>& work, std::string& reason) override {
+    const GLXContext context = glx_.GetCurrentContext();
+    const GLXDrawable draw = glx_.GetCurrentDrawable(), read = glx_.GetCurrentReadDrawable();
+    Display* display = glx_.GetCurrentDisplay();
+    const auto config = find_config(display, 0, 0);
+    const ContextPool::Key key{display, reinterpret_cast<uintptr_t>(context)};
+    if (context_is_destroyed()) {
+      reason = "the program's context is destroyed";
+      return false;
+    }
+    watch_end_of(display);
+    auto own = static_cast<GLXContext>(sharing_.take(key));
+    if (own == nullptr && config)
+      own = glx_.CreateNewContext(display, static_cast<GLXFBConfig>(config->config), GLX_RGBA_TYPE, context,
+                                  glx_.IsDirect(display, context));
+    const bool bound = own != nullptr && glx_.MakeContextCurrent(display, draw, read, own);
+    if (bound) work();
+    if (bound && !glx_.MakeContextCurrent(display, draw, read, context))
+      reason = "the program's context could not be made current again";
+    if (own != nullptr) sharing_.give(key, own);
+    if (!bound) reason = "no private context can share objects with the program's";
+    return bound;
   }
 
   bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
@@ -97,14 +132,15 @@ class GlxSource final : public PresentSource {
         break;
     }
     const bool double_buffered = described() && described()->double_buffered;
-    if (read_in_program_context(gl_, shape, double_buffered, frame)) return true;
+    if (read_in_program_context(gl_, shape, double_buffered ? GL_BACK : GL_FRONT, frame)) return true;
     if (reason.empty()) reason = "the program's context cannot be read";
     return false;
   }
 
   void release(void* display) override {
-    for (void* own : pool_.take_all(display))
-      glx_.DestroyContext(static_cast<Display*>(display), static_cast<GLXContext>(own));
+    for (ContextPool* pool : {&pool_, &sharing_})
+      for (void* own : pool->take_all(display))
+        glx_.DestroyContext(static_cast<Display*>(display), static_cast<GLXContext>(own));
   }
 
   GlStrings strings() const override {
@@ -195,8 +231,17 @@ class GlxSource final : public PresentSource {
       if (found != nullptr) glx_.Free(found);
       if (config == nullptr) return std::nullopt;
       return KnownConfig{config, format_of(bits_of(display, config)),
-                         attribute(display, config, GLX_DOUBLEBUFFER) != 0};
+                         attribute(display, config, GLX_DOUBLEBUFFER) != 0,
+                         attribute(display, config, GLX_FRAMEBUFFER_SRGB_CAPABLE_ARB) != 0};
     });
+  }
+
+  /// A visual that could be encoded is, while the program asks for it.
+  bool is_srgb() const {
+    const ContextVersion version = version_of(gl_);
+    GLint enabled = 0;
+    if (version.number >= 30 && !version.embedded) gl_.GetIntegerv(GL_FRAMEBUFFER_SRGB, &enabled);
+    return enabled != 0;
   }
 
   int attribute(Display* display, GLXFBConfig config, int name) const {
@@ -213,7 +258,8 @@ class GlxSource final : public PresentSource {
   const GlxFunctions glx_;
   const GlFunctions gl_;
   const DrawableSize size_;
-  ContextPool pool_;
+  ContextPool pool_;     ///< by config
+  ContextPool sharing_;  ///< by the program's context
   ConfigCache configs_;
 };
 

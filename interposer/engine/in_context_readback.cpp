@@ -4,31 +4,15 @@
 
 #include <GL/glext.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
 
+#include "interposer/engine/context_version.h"
 #include "interposer/engine/monotonic_clock.h"
 
 namespace tilepress {
 namespace {
-
-struct ContextVersion {
-  bool embedded = false;  // OpenGL ES
-  int number = 0;         // 10 · major + minor
-};
-
-ContextVersion version_of(const GlFunctions& gl) {
-  const auto* text = reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
-  ContextVersion version;
-  if (text == nullptr) return version;
-  version.embedded = strncmp(text, "OpenGL ES", 9) == 0;
-  while (*text != 0 && (*text < '0' || *text > '9')) ++text;
-  int major = 0, minor = 0;
-  if (sscanf(text, "%d.%d", &major, &minor) == 2) version.number = 10 * major + minor;
-  return version;
-}
 
 // Sets pack parameters to the plain layout and puts them back.
 class PlainPackState {
@@ -64,41 +48,93 @@ class PlainPackState {
   std::vector<Saved> saved_;
 };
 
-// Binds the window's own framebuffer and no pack buffer for reading, its back buffer selected; puts all back.
-class BackBufferBinding {
+// Binds a framebuffer and no pack buffer for reading, with a buffer of it selected; puts all back.
+class ReadBinding {
  public:
-  BackBufferBinding(const GlFunctions& gl, const ContextVersion& version, bool double_buffered) : gl_(gl) {
-    const bool separate = version.number >= 30;
+  ReadBinding(const GlFunctions& gl, const ContextVersion& version, GLuint framebuffer, GLenum buffer)
+      : gl_(gl) {
+    const bool separate = version.separate_framebuffers();
     target_ = separate ? GL_READ_FRAMEBUFFER : GL_FRAMEBUFFER;
-    if (separate || version.embedded) {
-      gl.GetIntegerv(separate ? GL_READ_FRAMEBUFFER_BINDING : GL_FRAMEBUFFER_BINDING, &framebuffer_);
-      if (framebuffer_ != 0) gl.BindFramebuffer(target_, 0);
-    }
+    before_ = bound_framebuffer(gl, version, FramebufferUse::kRead);
+    bound_ = framebuffer;
+    if (before_ != bound_) gl.BindFramebuffer(target_, bound_);
     if (version.number >= (version.embedded ? 30 : 21)) {
       gl.GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &pack_buffer_);
       if (pack_buffer_ != 0) gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     }
     if (!version.embedded || version.number >= 30) {
-      const GLint wanted = double_buffered || version.embedded ? GL_BACK : GL_FRONT;
       gl.GetIntegerv(GL_READ_BUFFER, &read_buffer_);
-      restore_read_buffer_ = read_buffer_ != wanted;
-      if (restore_read_buffer_) gl.ReadBuffer(static_cast<GLenum>(wanted));
+      restore_read_buffer_ = static_cast<GLenum>(read_buffer_) != buffer;
+      if (restore_read_buffer_) gl.ReadBuffer(buffer);
     }
   }
-  ~BackBufferBinding() {
+  ~ReadBinding() {
     if (restore_read_buffer_) gl_.ReadBuffer(static_cast<GLenum>(read_buffer_));
     if (pack_buffer_ != 0) gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(pack_buffer_));
-    if (framebuffer_ != 0) gl_.BindFramebuffer(target_, static_cast<GLuint>(framebuffer_));
+    if (before_ != bound_) gl_.BindFramebuffer(target_, before_);
   }
-  BackBufferBinding(const BackBufferBinding&) = delete;
-  BackBufferBinding& operator=(const BackBufferBinding&) = delete;
+  ReadBinding(const ReadBinding&) = delete;
+  ReadBinding& operator=(const ReadBinding&) = delete;
 
  private:
   const GlFunctions& gl_;
   GLenum target_ = GL_FRAMEBUFFER;
   bool restore_read_buffer_ = false;
-  GLint framebuffer_ = 0, pack_buffer_ = 0, read_buffer_ = 0;
+  GLuint before_ = 0, bound_ = 0;
+  GLint pack_buffer_ = 0, read_buffer_ = 0;
 };
+
+struct Layout {
+  GLenum format = GL_RGBA, type = GL_UNSIGNED_BYTE;
+  size_t pixel_bytes = 4;
+};
+
+Layout layout_of(PixelFormat format) {
+  if (format == PixelFormat::kRgb565) return {GL_RGB, GL_UNSIGNED_SHORT_5_6_5, 2};
+  if (format == PixelFormat::kRgb10a2) return {GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, 4};
+  return {};
+}
+
+// OpenGL ES reads 8-bit RGBA, and what else it offers itself for the buffer that is bound.
+bool reads_layout(const GlFunctions& gl, const ContextVersion& version, const Layout& layout) {
+  if (!version.embedded || layout.type == GL_UNSIGNED_BYTE) return true;
+  GLint format = 0, type = 0;
+  gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &format);
+  gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &type);
+  return static_cast<GLenum>(format) == layout.format && static_cast<GLenum>(type) == layout.type;
+}
+
+bool read_bound(const GlFunctions& gl, const ContextVersion& version, const SurfaceShape& shape,
+                CapturedFrame& frame) {
+  const Layout layout = layout_of(*shape.format);
+  if (!reads_layout(gl, version, layout)) return false;
+  const size_t pitch_bytes = size_t{shape.width} * layout.pixel_bytes;
+  std::byte* pixels = frame.reserve(pitch_bytes * shape.height);
+  if (pixels == nullptr) return false;
+  const PlainPackState pack(gl, version);
+  const uint64_t begin_ns = now_ns();
+  gl.ReadPixels(0, 0, static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height), layout.format,
+                layout.type, pixels);
+  frame.read_ns = now_ns() - begin_ns;
+  frame.bind_ns = 0;
+  frame.view = {pixels + pitch_bytes * (shape.height - 1),
+                -static_cast<ptrdiff_t>(pitch_bytes),
+                shape.width,
+                shape.height,
+                *shape.format,
+                ByteOrder::kRgba};
+  return true;
+}
+
+bool can_read(const GlFunctions& gl, const ContextVersion& version) {
+  const bool selects = !version.embedded || version.number >= 30;
+  if (version.number == 0 || gl.BindFramebuffer == nullptr || gl.BindBuffer == nullptr ||
+      (selects && gl.ReadBuffer == nullptr))
+    return false;
+  GLint render_mode = GL_RENDER;
+  if (!version.embedded && version.number < 31) gl.GetIntegerv(GL_RENDER_MODE, &render_mode);
+  return render_mode == GL_RENDER;
+}
 
 }  // namespace
 
@@ -110,42 +146,20 @@ bool in_program_context_only() {
   return only;
 }
 
-bool read_in_program_context(const GlFunctions& gl, const SurfaceShape& shape, bool double_buffered,
+bool read_in_program_context(const GlFunctions& gl, const SurfaceShape& shape, GLenum buffer,
                              CapturedFrame& frame) {
   const ContextVersion version = version_of(gl);
-  const bool eight_bits = *shape.format == PixelFormat::kRgba8 || *shape.format == PixelFormat::kRgbx8;
-  if (version.number == 0 || gl.BindFramebuffer == nullptr || gl.BindBuffer == nullptr ||
-      gl.ReadBuffer == nullptr)
-    return false;
-  if (!eight_bits && version.embedded)
-    return false;  // ES allows other layouts only where it offers them itself
-  GLint render_mode = GL_RENDER;
-  if (!version.embedded && version.number < 31) gl.GetIntegerv(GL_RENDER_MODE, &render_mode);
-  if (render_mode != GL_RENDER) return false;
+  if (!can_read(gl, version)) return false;
+  const ReadBinding binding(gl, version, 0, buffer);
+  return read_bound(gl, version, shape, frame);
+}
 
-  GLenum layout = GL_RGBA, type = GL_UNSIGNED_BYTE;
-  size_t pixel_bytes = 4;
-  if (*shape.format == PixelFormat::kRgb565) layout = GL_RGB, type = GL_UNSIGNED_SHORT_5_6_5, pixel_bytes = 2;
-  if (*shape.format == PixelFormat::kRgb10a2) type = GL_UNSIGNED_INT_2_10_10_10_REV;
-  const size_t pitch_bytes = size_t{shape.width} * pixel_bytes;
-  std::byte* pixels = frame.reserve(pitch_bytes * shape.height);
-  if (pixels == nullptr) return false;
-  {
-    const BackBufferBinding binding(gl, version, double_buffered);
-    const PlainPackState pack(gl, version);
-    const uint64_t begin_ns = now_ns();
-    gl.ReadPixels(0, 0, static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height), layout, type,
-                  pixels);
-    frame.read_ns = now_ns() - begin_ns;
-    frame.bind_ns = 0;
-  }
-  frame.view = {pixels + pitch_bytes * (shape.height - 1),
-                -static_cast<ptrdiff_t>(pitch_bytes),
-                shape.width,
-                shape.height,
-                *shape.format,
-                ByteOrder::kRgba};
-  return true;
+bool read_attachment_in_program_context(const GlFunctions& gl, const Attachment& attachment,
+                                        FramebufferUse use, const SurfaceShape& shape, CapturedFrame& frame) {
+  const ContextVersion version = version_of(gl);
+  if (!can_read(gl, version)) return false;
+  const ReadBinding binding(gl, version, bound_framebuffer(gl, version, use), attachment.point);
+  return read_bound(gl, version, shape, frame);
 }
 
 }  // namespace tilepress

@@ -2,10 +2,12 @@
 // reading.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "interposer/engine/captured_frame.h"
+#include "interposer/engine/gl_functions.h"
 #include "interposer/engine/surface_registry.h"
 #include "interposer/engine_contract.h"
 
@@ -27,6 +29,18 @@ class PresentSource {
   /// Reads the back buffer in a private context and makes the program's context current again.
   virtual bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
                     std::string& reason) = 0;
+  /// Fills in what is current on the calling thread: display and surface. False if no context of this API is.
+  virtual bool find_current(TilepressPresent& present) = 0;
+  /// The context that is current on the calling thread.
+  virtual const void* context() const = 0;
+  /// Runs `work` in a private context that shares objects with the program's, and makes the program's current
+  /// again. False, with the reason, if it did not run; not to be tried on a context that is lost then.
+  virtual bool beside(const std::function<void()>& work, std::string& reason) = 0;
+  virtual const GlFunctions& gl() const = 0;
+  /// The API's error flag of this thread, taken out and put back, where GL calls stand between two that set
+  /// it.
+  virtual uint32_t take_error() { return 0; }
+  virtual void put_back_error(uint32_t) {}
   /// Destroys the contexts kept for `display`, which the program is about to tear down. The API must match.
   virtual void release(void* display) = 0;
   /// Of the program's own context, which is current.
@@ -37,5 +51,6 @@ class PresentSource {
 /// Null if the library that holds `present.real` lacks a function the readback needs.
 std::unique_ptr<PresentSource> make_egl_source(const TilepressHost& host, const TilepressPresent& present);
 std::unique_ptr<PresentSource> make_glx_source(const TilepressHost& host, const TilepressPresent& present);
+std::unique_ptr<PresentSource> make_osmesa_source(const TilepressHost& host, const TilepressPresent& present);
 
 }  // namespace tilepress

@@ -10,19 +10,23 @@ SurfaceRegistry::Turn SurfaceRegistry::turn(const WindowKey& key, const SurfaceS
   std::lock_guard lock(mutex_);
   std::optional<uint32_t> forgotten;
   auto window = std::find_if(windows_.begin(), windows_.end(), [&](const Window& w) { return w.key == key; });
+  const bool target = key.role == SurfaceRole::kTarget;
+  uint32_t& next_surface = target ? target_count_ : surface_count_;
   if (window == windows_.end()) {
-    if (windows_.size() >= kMaxWindows) {
-      const auto oldest =
-          std::min_element(windows_.begin(), windows_.end(),
-                           [](const Window& a, const Window& b) { return a.last_turn < b.last_turn; });
+    const auto alike = [&](const Window& w) { return w.key.role == key.role; };
+    const auto count = static_cast<size_t>(std::count_if(windows_.begin(), windows_.end(), alike));
+    if (count >= (target ? kMaxTargets : kMaxWindows)) {
+      auto oldest = std::find_if(windows_.begin(), windows_.end(), alike);
+      for (auto other = oldest; other != windows_.end(); ++other)
+        if (alike(*other) && other->last_turn < oldest->last_turn) oldest = other;
       forgotten = oldest->number;
       windows_.erase(oldest);
     }
-    windows_.push_back({key, shape, window_count_++, surface_count_++, 0, 0, 0});
+    windows_.push_back({key, shape, window_count_++, next_surface++, 0, 0, 0});
     window = windows_.end() - 1;
   } else if (window->shape != shape) {
     window->shape = shape;
-    window->surface = surface_count_++;
+    window->surface = next_surface++;
     window->frames = 0;
   }
   window->last_turn = ++turns_;
@@ -47,6 +51,18 @@ std::optional<uint32_t> SurfaceRegistry::forget(const WindowKey& key) {
   const uint32_t number = window->number;
   windows_.erase(window);
   return number;
+}
+
+std::vector<uint32_t> SurfaceRegistry::forget_targets(const void* context, uintptr_t image, uintptr_t mask) {
+  std::lock_guard lock(mutex_);
+  std::vector<uint32_t> numbers;
+  std::erase_if(windows_, [&](const Window& window) {
+    const bool gone = window.key.display == context && window.key.role == SurfaceRole::kTarget &&
+                      ((window.key.surface ^ image) & mask) == 0;
+    if (gone) numbers.push_back(window.number);
+    return gone;
+  });
+  return numbers;
 }
 
 bool SurfaceRegistry::first_report(uint32_t surface) {

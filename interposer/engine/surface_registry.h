@@ -7,13 +7,19 @@
 #include <vector>
 
 #include "tilepress/pixel_format.h"
+#include "tilepress/run_directory.h"
 
 namespace tilepress {
 
-/// What a program presents from, as the native API names it.
+/// Presented: what the program shows or hands out. Target: a framebuffer object's image on the way there.
+enum class SurfaceRole : uint8_t { kPresented, kTarget };
+
+/// What a program draws to, as the native API names it: display and surface, or a context and one of its
+/// images.
 struct WindowKey {
   const void* display;
   uintptr_t surface;
+  SurfaceRole role = SurfaceRole::kPresented;
   bool operator==(const WindowKey&) const = default;
 };
 
@@ -21,6 +27,7 @@ struct WindowKey {
 struct SurfaceShape {
   uint32_t width = 0, height = 0;
   std::optional<PixelFormat> format;
+  bool srgb = false;  ///< its values are encoded as sRGB
   bool operator==(const SurfaceShape&) const = default;
 };
 
@@ -31,6 +38,7 @@ class SurfaceRegistry {
   /// Windows known at a time: of an X window nobody tells us when it ends, so the one that has not presented
   /// for the longest time is forgotten.
   static constexpr size_t kMaxWindows = 64;
+  static constexpr size_t kMaxTargets = 256;  ///< the same for targets
 
   struct Turn {
     uint32_t window, surface;
@@ -44,6 +52,9 @@ class SurfaceRegistry {
   void presented(uint32_t window, uint64_t begin_ns);
   /// The window is gone: what presents under its handle later is another. Its number, if it was known.
   std::optional<uint32_t> forget(const WindowKey& key);
+  /// The targets of `context` are gone: all, or those whose image has these bits where `mask` is set. Their
+  /// numbers.
+  std::vector<uint32_t> forget_targets(const void* context, uintptr_t image = 0, uintptr_t mask = 0);
   /// True the first time it is asked for `surface`: a thing to be said once.
   bool first_report(uint32_t surface);
 
@@ -60,7 +71,7 @@ class SurfaceRegistry {
   std::mutex mutex_;
   std::vector<Window> windows_;
   std::vector<uint32_t> reported_;
-  uint32_t window_count_ = 0, surface_count_ = 0;
+  uint32_t window_count_ = 0, surface_count_ = 0, target_count_ = kFirstTargetSurface;
   uint64_t turns_ = 0;
 };
 

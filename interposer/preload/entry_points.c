@@ -8,11 +8,15 @@
 #include <string.h>
 
 #include "elf_symbols.h"
+#include "gl_hooks.h"
 #include "real_dlsym.h"
 #include "session_file.h"
 
 // clang-format off
 const char* const tp_entry_names[TP_ENTRY_COUNT] = {
+    "OSMesaDestroyContext",
+    "OSMesaGetProcAddress",
+    "OSMesaMakeCurrent",
     "eglDestroyContext",
     "eglDestroySurface",
     "eglGetProcAddress",
@@ -27,6 +31,7 @@ const char* const tp_entry_names[TP_ENTRY_COUNT] = {
     "glXGetProcAddressARB",
     "glXSwapBuffers",
     "glXSwapBuffersMscOML",
+    "glfwSwapBuffers",
 };
 // clang-format on
 
@@ -34,9 +39,9 @@ void* tp_bound[TP_ENTRY_COUNT][TP_BANK_SIZE];
 
 int tp_find_entry(const char* name) {
   // Nearly every name a program looks up is turned away by its first bytes.
-  if (name == NULL || (name[0] != 'e' && name[0] != 'g')) return -1;
-  if (name[1] != 'g' && name[1] != 'l') return -1;
-  if (name[2] != 'l' && name[2] != 'X') return -1;
+  if (name == NULL || (name[0] != 'e' && name[0] != 'g' && name[0] != 'O')) return -1;
+  if (name[1] != 'g' && name[1] != 'l' && name[1] != 'S') return -1;
+  if (name[2] != 'l' && name[2] != 'X' && name[2] != 'f' && name[2] != 'M') return -1;
   int low = 0, high = TP_ENTRY_COUNT;
   while (low < high) {
     const int middle = (low + high) / 2;
@@ -50,9 +55,7 @@ int tp_find_entry(const char* name) {
   return -1;
 }
 
-// A bound function may be called at any later time, also after the program has closed the library that its
-// pointer came from: the library stays.
-static void pin_library_of(void* function) {
+void tp_pin_library_of(void* function) {
   Dl_info where;
   if (dladdr(function, &where) == 0 || where.dli_fname == NULL || strchr(where.dli_fname, '/') == NULL)
     return;
@@ -65,7 +68,7 @@ void* tp_bind(enum tp_entry entry, void* real) {
     void* held = __atomic_load_n(&tp_bound[entry][slot], __ATOMIC_ACQUIRE);
     if (held == NULL && __atomic_compare_exchange_n(&tp_bound[entry][slot], &held, real, false,
                                                     __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE)) {
-      pin_library_of(real);
+      tp_pin_library_of(real);
       return tp_hooks[entry][slot];
     }
     if (held == real) return tp_hooks[entry][slot];
@@ -74,8 +77,7 @@ void* tp_bind(enum tp_entry entry, void* real) {
   return real;
 }
 
-static void* find_definition(enum tp_entry entry, void* caller) {
-  const char* name = tp_entry_names[entry];
+static void* next_or_the_callers(const char* name, void* caller) {
   void* found = tp_real_dlsym()(RTLD_NEXT, name);
   if (found == NULL) {
     // Not in the global scope: the caller's own library may have brought its GL library along.
@@ -86,9 +88,22 @@ static void* find_definition(enum tp_entry entry, void* caller) {
     if (found != NULL && tp_is_ours(found)) found = NULL;
   }
   dlerror();
+  return found;
+}
+
+static void* find_definition(enum tp_entry entry, void* caller) {
+  void* found = next_or_the_callers(tp_entry_names[entry], caller);
   for (int slot = 0; found == NULL && slot < TP_BANK_SIZE; ++slot)
     found = __atomic_load_n(&tp_bound[entry][slot], __ATOMIC_ACQUIRE);
+  if (found == NULL) found = tp_symbol_anywhere(tp_entry_names[entry], NULL);
+  return found;
+}
+
+void* tp_definition_after_ours(const char* name, void* caller) {
+  void* found = tp_real_dlsym() != NULL ? next_or_the_callers(name, caller) : NULL;
   if (found == NULL) found = tp_symbol_anywhere(name, NULL);
+  if (found != NULL && tp_same_object(found, caller)) return tp_symbol_anywhere(name, found);
+  if (found != NULL) tp_pin_library_of(found);
   return found;
 }
 
@@ -98,7 +113,7 @@ void* tp_next_definition(enum tp_entry entry, void* caller) {
   if (found == NULL) {
     found = find_definition(entry, caller);
     if (found == NULL) return NULL;
-    pin_library_of(found);
+    tp_pin_library_of(found);
     __atomic_store_n(&known[entry], found, __ATOMIC_RELEASE);
   }
   // A library that implements its entry point by calling the same name in the library beneath it.
@@ -108,12 +123,14 @@ void* tp_next_definition(enum tp_entry entry, void* caller) {
 
 void* tp_answer_get_proc_address(const char* name, void* real, void* get_proc_address) {
   const int entry = real != NULL ? tp_find_entry(name) : -1;
-  if (entry < 0) return real;
+  const int gl = real != NULL && entry < 0 ? tp_find_gl(name) : -1;
+  if (entry < 0 && gl < 0) return real;
   if (tp_is_ours(real)) {
     // The library asked the dynamic linker for its own function and was given ours.
     real = tp_symbol_in_object_of(get_proc_address, name);
     if (real == NULL) return NULL;
   }
+  if (gl >= 0) return tp_gl_answer(gl, real, false);
   tp_session_note(name, "getprocaddress");
   return tp_bind((enum tp_entry)entry, real);
 }

@@ -5,6 +5,9 @@
 
 // In the order of their names: the filter searches this table by bisection.
 enum tp_entry {
+  TP_OSMESA_DESTROY_CONTEXT,
+  TP_OSMESA_GET_PROC_ADDRESS,
+  TP_OSMESA_MAKE_CURRENT,
   TP_EGL_DESTROY_CONTEXT,
   TP_EGL_DESTROY_SURFACE,
   TP_EGL_GET_PROC_ADDRESS,
@@ -19,6 +22,7 @@ enum tp_entry {
   TP_GLX_GET_PROC_ADDRESS_ARB,
   TP_GLX_SWAP_BUFFERS,
   TP_GLX_SWAP_BUFFERS_MSC_OML,
+  TP_GLFW_SWAP_BUFFERS,
   TP_ENTRY_COUNT
 };
 
@@ -40,6 +44,13 @@ void* tp_bind(enum tp_entry entry, void* real);
 // The function that a call of our exported `entry` from the code at `caller` would have reached without the
 // shim; NULL when no library defines it.
 void* tp_next_definition(enum tp_entry entry, void* caller);
+
+// The same for a name that is no entry point. Looks it up each time.
+void* tp_definition_after_ours(const char* name, void* caller);
+
+// `function` may be called at any later time, also after the program has closed the library that its pointer
+// came from: the library stays.
+void tp_pin_library_of(void* function);
 
 // What a GetProcAddress function must answer for `name` when the real one, `get_proc_address`, said `real`.
 void* tp_answer_get_proc_address(const char* name, void* real, void* get_proc_address);

@@ -47,6 +47,7 @@ static void* linked(enum tp_entry entry, void* caller) {
 #define SURFACE_BOX                                                                          \
   (tp_display display, tp_egl_surface surface, tp_egl_int x, tp_egl_int y, tp_egl_int width, \
    tp_egl_int height)
+#define OSMESA_BUFFER (tp_context context, void* buffer, unsigned type, int width, int height)
 #define DRAWABLE (tp_display display, tp_glx_drawable drawable)
 #define DRAWABLE_MSC \
   (tp_display display, tp_glx_drawable drawable, int64_t target_msc, int64_t divisor, int64_t remainder)
@@ -78,6 +79,14 @@ ENTRY_POINT(int64_t, glXSwapBuffersMscOML, TP_GLX_SWAP_BUFFERS_MSC_OML, tp_on_gl
 ENTRY_POINT(void, glXCopySubBufferMESA, TP_GLX_COPY_SUB_BUFFER_MESA, tp_on_glx_copy_sub_buffer, DRAWABLE_BOX,
             display, drawable, x, y, width, height)
 
+ENTRY_POINT(void, OSMesaDestroyContext, TP_OSMESA_DESTROY_CONTEXT, tp_on_osmesa_destroy_context,
+            (tp_context context), context)
+ENTRY_POINT(void*, OSMesaGetProcAddress, TP_OSMESA_GET_PROC_ADDRESS, tp_on_osmesa_get_proc_address,
+            (const char* name), name)
+ENTRY_POINT(unsigned char, OSMesaMakeCurrent, TP_OSMESA_MAKE_CURRENT, tp_on_osmesa_make_current,
+            OSMESA_BUFFER, context, buffer, type, width, height, __builtin_return_address(0))
+ENTRY_POINT(void, glfwSwapBuffers, TP_GLFW_SWAP_BUFFERS, tp_on_glfw_swap, (void* window), window)
+
 void* const tp_hooks[TP_ENTRY_COUNT][TP_BANK_SIZE] = {
     [TP_EGL_DESTROY_CONTEXT] = BANK(eglDestroyContext),
     [TP_EGL_DESTROY_SURFACE] = BANK(eglDestroySurface),
@@ -93,4 +102,8 @@ void* const tp_hooks[TP_ENTRY_COUNT][TP_BANK_SIZE] = {
     [TP_GLX_GET_PROC_ADDRESS_ARB] = BANK(glXGetProcAddressARB),
     [TP_GLX_SWAP_BUFFERS] = BANK(glXSwapBuffers),
     [TP_GLX_SWAP_BUFFERS_MSC_OML] = BANK(glXSwapBuffersMscOML),
+    [TP_OSMESA_DESTROY_CONTEXT] = BANK(OSMesaDestroyContext),
+    [TP_OSMESA_GET_PROC_ADDRESS] = BANK(OSMesaGetProcAddress),
+    [TP_OSMESA_MAKE_CURRENT] = BANK(OSMesaMakeCurrent),
+    [TP_GLFW_SWAP_BUFFERS] = BANK(glfwSwapBuffers),
 };

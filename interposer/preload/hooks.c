@@ -4,7 +4,9 @@
 
 #include <stddef.h>
 
+#include "elf_symbols.h"
 #include "entry_points.h"
+#include "gl_hooks.h"
 #include "presenting.h"
 
 void* tp_on_get_proc_address(void* real, const char* name) {
@@ -93,11 +95,47 @@ void tp_on_glx_copy_sub_buffer(void* real, tp_display display, tp_glx_drawable d
   if (taken) tp_presented(&present, true);
 }
 
+// OSMesa presents nothing: a frame ends where the program finishes or flushes, or with glfwSwapBuffers.
+
+unsigned char tp_on_osmesa_make_current(void* real, tp_context context, void* buffer, unsigned type,
+                                        int width, int height, void* caller) {
+  typedef unsigned char (*function)(tp_context, void*, unsigned, int, int);
+  if (real == NULL) return 0;
+  const unsigned char result = ((function)real)(context, buffer, type, width, height);
+  const bool current = result != 0 && context != NULL;
+  tp_gl_osmesa_current(current ? real : NULL,
+                       current && tp_symbol_in_object_of(caller, "glfwSwapBuffers") != NULL);
+  return result;
+}
+
+void* tp_on_osmesa_get_proc_address(void* real, const char* name) {
+  if (real == NULL) return NULL;
+  void* answer = ((void* (*)(const char*))real)(name);
+  const int gl = tp_find_gl(name);
+  if (answer != NULL && gl >= 0 && tp_is_ours(answer)) answer = tp_symbol_in_object_of(real, name);
+  return gl >= 0 ? tp_gl_answer(gl, answer, true) : answer;
+}
+
+void tp_on_osmesa_destroy_context(void* real, tp_context context) {
+  if (real == NULL) return;
+  tp_contexts_going(TILEPRESS_OSMESA, NULL, context);
+  ((void (*)(tp_context))real)(context);
+}
+
+// With EGL or GLX beneath, GLFW's call ends in theirs.
+void tp_on_glfw_swap(void* real, void* window) {
+  struct TilepressPresent present = {.api = TILEPRESS_OSMESA, .real = tp_gl_osmesa()};
+  if (real == NULL) return;
+  const bool taken = tp_presenting(&present);
+  ((void (*)(void*))real)(window);
+  if (taken) tp_presented(&present, true);
+}
+
 // What we keep for a display or a surface goes before the real call, while the handles are still good.
 
 tp_egl_boolean tp_on_egl_destroy_context(void* real, tp_display display, tp_context context) {
   if (real == NULL) return 0;
-  tp_contexts_going(TILEPRESS_EGL, display);
+  tp_contexts_going(TILEPRESS_EGL, display, context);
   return ((tp_egl_boolean(*)(tp_display, tp_context))real)(display, context);
 }
 
@@ -109,12 +147,12 @@ tp_egl_boolean tp_on_egl_destroy_surface(void* real, tp_display display, tp_egl_
 
 tp_egl_boolean tp_on_egl_terminate(void* real, tp_display display) {
   if (real == NULL) return 0;
-  tp_contexts_going(TILEPRESS_EGL, display);
+  tp_contexts_going(TILEPRESS_EGL, display, NULL);
   return ((tp_egl_boolean(*)(tp_display))real)(display);
 }
 
 void tp_on_glx_destroy_context(void* real, tp_display display, tp_context context) {
   if (real == NULL) return;
-  tp_contexts_going(TILEPRESS_GLX, display);
+  tp_contexts_going(TILEPRESS_GLX, display, context);
   ((void (*)(tp_display, tp_context))real)(display, context);
 }

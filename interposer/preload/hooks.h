@@ -20,6 +20,12 @@ tp_egl_boolean tp_on_egl_destroy_context(void* real, tp_display display, tp_cont
 tp_egl_boolean tp_on_egl_destroy_surface(void* real, tp_display display, tp_egl_surface surface);
 tp_egl_boolean tp_on_egl_terminate(void* real, tp_display display);
 void tp_on_glx_destroy_context(void* real, tp_display display, tp_context context);
+void tp_on_osmesa_destroy_context(void* real, tp_context context);
+void* tp_on_osmesa_get_proc_address(void* real, const char* name);
+// `caller`: an address in the code that calls.
+unsigned char tp_on_osmesa_make_current(void* real, tp_context context, void* buffer, unsigned type,
+                                        int width, int height, void* caller);
+void tp_on_glfw_swap(void* real, void* window);
 void tp_on_glx_swap(void* real, tp_display display, tp_glx_drawable drawable);
 int64_t tp_on_glx_swap_msc(void* real, tp_display display, tp_glx_drawable drawable, int64_t target_msc,
                            int64_t divisor, int64_t remainder);

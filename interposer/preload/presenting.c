@@ -8,7 +8,7 @@
 #include "engine_loader.h"
 #include "session_file.h"
 
-void* (*tp_driver_lookup[2])(const char* name);
+void* (*tp_driver_lookup[TILEPRESS_API_COUNT])(const char* name);
 
 // Depth of presenting calls on this thread. A driver or another shim may present through a hooked function.
 static __thread int depth __attribute__((tls_model("initial-exec")));
@@ -42,11 +42,34 @@ void tp_presented(struct TilepressPresent* present, bool success) {
   errno = saved;
 }
 
-void tp_contexts_going(uint32_t api, void* display) {
+void tp_gl_called(struct TilepressGlCall* call) {
+  if (depth > 0) return;
+  int cancel_state;
+  const int saved = errno;
+  pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &cancel_state);
+  depth = 1;
+  call->via = tp_via;
+  for (int api = 0; api < TILEPRESS_API_COUNT; ++api) call->look_up[api] = tp_driver_lookup[api];
+  const struct TilepressEngine* engine = tp_engine();
+  if (engine != NULL) engine->gl_call(call);
+  depth = 0;
+  pthread_setcancelstate(cancel_state, NULL);
+  errno = saved;
+}
+
+uint8_t* tp_gl_drawn_mark(void) {
+  const int saved = errno;
+  const struct TilepressEngine* engine = tp_engine();
+  uint8_t* mark = engine != NULL ? engine->drawn_mark() : NULL;
+  errno = saved;
+  return mark;
+}
+
+void tp_contexts_going(uint32_t api, void* display, void* context) {
   const struct TilepressEngine* engine = tp_loaded_engine();
   if (engine == NULL || depth > 0) return;
   const int saved = errno;
-  engine->contexts_going(api, display);
+  engine->contexts_going(api, display, context);
   errno = saved;
 }
 

@@ -27,7 +27,9 @@ static void append_line(const char* folder, const char* entry, const char* road)
 void tp_session_note(const char* entry, const char* road) {
   static unsigned noted[TP_ENTRY_COUNT];
   const int index = tp_find_entry(entry);
-  if (strstr(entry, "Destroy") != NULL || strstr(entry, "Terminate") != NULL) return;
+  static const char* const kQuiet[] = {"Destroy", "Terminate", "OSMesaGetProcAddress", "glfw"};
+  for (int i = 0; i < 4; ++i)
+    if (strstr(entry, kQuiet[i]) != NULL) return;
   const unsigned bit = road[0] == 'l' ? 1 : road[0] == 'd' ? 2 : road[0] == 'u' ? 4 : road[1] == 'e' ? 8 : 16;
   if (index < 0 || (__atomic_fetch_or(&noted[index], bit, __ATOMIC_RELAXED) & bit) != 0) return;
   const char* folder = getenv("TILEPRESS_SESSION");

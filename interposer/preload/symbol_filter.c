@@ -7,6 +7,7 @@
 
 #include "elf_symbols.h"
 #include "entry_points.h"
+#include "gl_hooks.h"
 #include "real_dlsym.h"
 #include "session_file.h"
 
@@ -23,7 +24,8 @@ static void* look_up(void* handle, const char* name, const char* version) {
 
 // An ANGLE handle is left alone: ANGLE's frames are seen one level down, at the library it draws with.
 static bool is_angle(const void* function) {
-  return tp_symbol_in_object_of(function, "eglStreamPostD3DTextureANGLE") != NULL;
+  return tp_symbol_in_object_of(function, "eglStreamPostD3DTextureANGLE") != NULL ||
+         tp_symbol_in_object_of(function, "ANGLEGetDisplayPlatform") != NULL;  // its libGLESv2
 }
 
 // RTLD_NEXT finds our export only where the caller stands before us in load order.
@@ -50,8 +52,8 @@ static void* look_past_us(void* handle, const char* name, const char* version, c
 static struct tp_verdict decide(void* handle, const char* name, const char* version, const void* caller,
                                 void* real_function) {
   const struct tp_verdict forward = {real_function, NULL};
-  const int entry = tp_find_entry(name);
-  if (entry < 0 || real_function == NULL || tp_real_dlsym() == NULL) return forward;
+  const int entry = tp_find_entry(name), gl = entry < 0 ? tp_find_gl(name) : -1;
+  if ((entry < 0 && gl < 0) || real_function == NULL || tp_real_dlsym() == NULL) return forward;
   void* real;
   if (handle == RTLD_NEXT) {
     if (!next_is_ours(caller)) return forward;
@@ -63,6 +65,10 @@ static struct tp_verdict decide(void* handle, const char* name, const char* vers
   }
   if (real == NULL) return (struct tp_verdict){NULL, NULL};
   if (is_angle(real)) return (struct tp_verdict){NULL, real};
+  if (gl >= 0) {
+    const bool osmesa = tp_symbol_in_object_of(real, "OSMesaMakeCurrent") != NULL;
+    return (struct tp_verdict){NULL, tp_gl_answer(gl, real, osmesa)};
+  }
   tp_session_note(name, "dlsym");
   return (struct tp_verdict){NULL, tp_bind((enum tp_entry)entry, real)};
 }

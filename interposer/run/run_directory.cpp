@@ -40,6 +40,7 @@ bool RunWriter::create(const std::string& path, const RunInfo& info, const RunOp
   for (const SchemeSpec& spec : options.schemes) scheme_names_.push_back(spec.text);
   totals_.assign(scheme_names_.size(), SchemeStatistics{});
   for (SchemeStatistics& total : totals_) total.burst_bits = options.model.burst_bits;
+  target_totals_ = totals_;
 
   std::error_code code;
   std::filesystem::create_directories(path, code);
@@ -73,14 +74,17 @@ bool RunWriter::append(const FrameStatistics& frame) {
     return false;
   }
   if (!frame.warmup) {
-    ++measured_frames_;
-    for (size_t i = 0; i < totals_.size(); ++i) totals_[i] += frame.schemes[i];
+    const bool target = is_target(frame.surface);
+    ++(target ? measured_targets_ : measured_frames_);
+    std::vector<SchemeStatistics>& totals = target ? target_totals_ : totals_;
+    for (size_t i = 0; i < totals.size(); ++i) totals[i] += frame.schemes[i];
   }
   return monotonic_ns() - last_json_ns_ < kJsonPeriodNs || write_json("running", "");
 }
 
-void RunWriter::set_counts(const RunCounts& counts) {
+void RunWriter::set_counts(const RunCounts& counts, const RunCounts& targets) {
   counts_ = counts;
+  target_counts_ = targets;
   if (is_open() && monotonic_ns() - last_json_ns_ >= kJsonPeriodNs) write_json("running", "");
 }
 
@@ -94,8 +98,8 @@ bool RunWriter::finish(const std::string& state, const std::string& reason) {
 
 bool RunWriter::write_json(const std::string& state, const std::string& reason) {
   last_json_ns_ = monotonic_ns();
-  const std::string text =
-      run_json_text({state, reason, started_, info_, options_, counts_, measured_frames_, totals_});
+  const std::string text = run_json_text({state, reason, started_, info_, options_, counts_, measured_frames_,
+                                          totals_, target_counts_, measured_targets_, target_totals_});
   std::string failure;
   if (replace_file(path_ + "/run.json", text, failure)) return true;
   error_ = path_ + "/run.json: " + failure;

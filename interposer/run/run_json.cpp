@@ -45,7 +45,9 @@ Json options_json(const RunOptions& options) {
           {"verify", options.model.verify},
           {"frames", options.frames.text()},
           {"every", options.every},
-          {"on_full", options.on_full == OnFull::kBlock ? "block" : "drop"}};
+          {"on_full", options.on_full == OnFull::kBlock ? "block" : "drop"},
+          {"trigger", trigger_list(options.triggers)},
+          {"targets", options.all_targets ? "all" : "presented"}};
 }
 
 /// What the powers of totals_json rest on.
@@ -96,6 +98,14 @@ Json totals_json(const std::vector<std::string>& names, const std::vector<Scheme
   return list;
 }
 
+/// What the images of framebuffer objects came to, apart from what is presented.
+Json targets_json(const RunCounts& counts, uint64_t measured_frames, const std::vector<std::string>& names,
+                  const std::vector<SchemeStatistics>& totals) {
+  return {{"counts", counts_json(counts)},
+          {"measured_frames", measured_frames},
+          {"schemes", totals_json(names, totals, measured_frames)}};
+}
+
 std::string dump(const Json& document) {
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -109,6 +119,17 @@ void take(const Json& object, const char* name, T& out) {
   } catch (const Json::exception&) {
     // A member of another type is one we do not know: left as it was.
   }
+}
+
+void take_counts(const Json& owner, RunCounts& out) {
+  const auto counts = owner.find("counts");
+  if (counts == owner.end() || !counts->is_object()) return;
+  take(*counts, "seen", out.seen);
+  take(*counts, "captured", out.captured);
+  take(*counts, "dropped", out.dropped);
+  take(*counts, "skipped", out.skipped);
+  take(*counts, "unsupported", out.unsupported);
+  take(*counts, "not_captured", out.not_captured);
 }
 
 }  // namespace
@@ -146,6 +167,9 @@ std::string run_json_text(const RunDocument& document) {
   json["measured_frames"] = document.measured_frames;
   json["energy"] = energy_json();
   json["schemes"] = totals_json(names, document.totals, document.measured_frames);
+  if (document.options.all_targets)
+    json["targets"] =
+        targets_json(document.target_counts, document.measured_targets, names, document.target_totals);
   return dump(json);
 }
 
@@ -174,14 +198,9 @@ bool read_run_json(std::string_view text, RunRecord& record, std::string& reason
     const bool known = std::find(std::begin(kKnown), std::end(kKnown), name) != std::end(kKnown);
     if (value.is_string() && !known) info.further.emplace_back(name, value.get<std::string>());
   }
-  if (const auto counts = json.find("counts"); counts != json.end() && counts->is_object()) {
-    take(*counts, "seen", record.counts.seen);
-    take(*counts, "captured", record.counts.captured);
-    take(*counts, "dropped", record.counts.dropped);
-    take(*counts, "skipped", record.counts.skipped);
-    take(*counts, "unsupported", record.counts.unsupported);
-    take(*counts, "not_captured", record.counts.not_captured);
-  }
+  take_counts(json, record.counts);
+  if (const auto targets = json.find("targets"); targets != json.end() && targets->is_object())
+    take_counts(*targets, record.target_counts);
   if (const auto options = json.find("options"); options != json.end() && options->is_object()) {
     take(*options, "schemes", record.scheme_names);
     take(*options, "burst", record.burst_bits);
@@ -208,6 +227,9 @@ std::string finished_run_json(std::string_view text, const RunRecord& record, co
   json["measured_frames"] = record.measured_frames;
   json["energy"] = energy_json();
   json["schemes"] = totals_json(record.scheme_names, record.totals, record.measured_frames);
+  if (record.target_counts.seen > 0 || json.contains("targets"))
+    json["targets"] = targets_json(record.target_counts, record.measured_targets, record.scheme_names,
+                                   record.target_totals);
   return dump(json);
 }
 

@@ -23,6 +23,9 @@ struct RunDocument {
   RunCounts counts;
   uint64_t measured_frames = 0;
   std::vector<SchemeStatistics> totals;  ///< in the order of options.schemes
+  RunCounts target_counts;
+  uint64_t measured_targets = 0;
+  std::vector<SchemeStatistics> target_totals;
 };
 
 std::string run_json_text(const RunDocument& document);

@@ -130,6 +130,42 @@ bool set_on_full(RunOptions& options, std::string_view& value, std::string& reas
   return true;
 }
 
+struct TriggerName {
+  const char* name;
+  Trigger trigger;
+};
+
+constexpr TriggerName kTriggers[] = {
+    {"finish", kTriggerFinish}, {"flush", kTriggerFlush}, {"readpixels", kTriggerReadPixels}};
+
+bool set_trigger(RunOptions& options, std::string_view& value, std::string& reason) {
+  uint32_t triggers = 0;
+  for (size_t begin = 0; begin <= value.size();) {
+    const size_t end = std::min(value.find(',', begin), value.size());
+    const std::string_view word = value.substr(begin, end - begin);
+    begin = end + 1;
+    if (word.empty() && value.empty()) break;
+    const auto* found = std::find_if(std::begin(kTriggers), std::end(kTriggers),
+                                     [&](const TriggerName& known) { return word == known.name; });
+    if (found == std::end(kTriggers)) {
+      reason = "not a list of finish, flush, readpixels";
+      return false;
+    }
+    triggers |= found->trigger;
+  }
+  options.triggers = triggers;
+  return true;
+}
+
+bool set_targets(RunOptions& options, std::string_view& value, std::string& reason) {
+  if (value != "presented" && value != "all") {
+    reason = "neither presented nor all";
+    return false;
+  }
+  options.all_targets = value == "all";
+  return true;
+}
+
 bool set_output(RunOptions& options, std::string_view& value, std::string& reason) {
   if (value.empty()) {
     reason = "no folder named";
@@ -171,6 +207,8 @@ constexpr OptionEntry kOptions[] = {
     {"heatmaps", "TILEPRESS_HEATMAPS", set_heatmaps},
     {"dump-frames", "TILEPRESS_DUMP_FRAMES", set_dump_frames},
     {"on-full", "TILEPRESS_ON_FULL", set_on_full},
+    {"trigger", "TILEPRESS_TRIGGER", set_trigger},
+    {"targets", "TILEPRESS_TARGETS", set_targets},
     {"log-level", "TILEPRESS_LOG_LEVEL", set_log_level},
     {"log-file", "TILEPRESS_LOG_FILE", set_log_file},
 };
@@ -189,6 +227,13 @@ std::string picture_rule(uint64_t every) {
 }
 
 }  // namespace
+
+std::string trigger_list(uint32_t triggers) {
+  std::string list;
+  for (const TriggerName& known : kTriggers)
+    if ((triggers & known.trigger) != 0) list.append(list.empty() ? "" : ",").append(known.name);
+  return list;
+}
 
 bool set_run_option(RunOptions& options, std::string_view name, std::string_view value, std::string& error) {
   for (const OptionEntry& entry : kOptions) {
@@ -214,6 +259,8 @@ std::map<std::string, std::string> to_environment(const RunOptions& options) {
       {"TILEPRESS_HEATMAPS", picture_rule(options.heatmaps_every)},
       {"TILEPRESS_DUMP_FRAMES", picture_rule(options.dump_frames_every)},
       {"TILEPRESS_ON_FULL", options.on_full == OnFull::kBlock ? "block" : "drop"},
+      {"TILEPRESS_TRIGGER", trigger_list(options.triggers)},
+      {"TILEPRESS_TARGETS", options.all_targets ? "all" : ""},
       {"TILEPRESS_LOG_LEVEL", options.log_level},
       {"TILEPRESS_LOG_FILE", options.log_file},
   };

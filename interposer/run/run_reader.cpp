@@ -194,11 +194,14 @@ bool read_tables(const std::string& path, RunRecord& out, Tables& tables, std::s
 
   out.totals.assign(out.scheme_names.size(), SchemeStatistics{});
   for (SchemeStatistics& total : out.totals) total.burst_bits = out.burst_bits;
+  out.target_totals = out.totals;
   for (FrameStatistics& frame : out.frames) {
     frame.schemes.resize(out.scheme_names.size());
     if (frame.warmup) continue;
-    ++out.measured_frames;
-    for (size_t i = 0; i < frame.schemes.size(); ++i) out.totals[i] += frame.schemes[i];
+    const bool target = is_target(frame.surface);
+    ++(target ? out.measured_targets : out.measured_frames);
+    std::vector<SchemeStatistics>& totals = target ? out.target_totals : out.totals;
+    for (size_t i = 0; i < frame.schemes.size(); ++i) totals[i] += frame.schemes[i];
   }
   return true;
 }
@@ -207,6 +210,13 @@ bool cut_file(const std::string& path, const std::string& text, size_t end, std:
   if (end >= text.size() || truncate(path.c_str(), static_cast<off_t>(end)) == 0) return true;
   error = path + ": " + std::strerror(errno);
   return false;
+}
+
+/// What the rows prove goes before what the run last said of itself.
+void settle(RunCounts& counts, uint64_t captured) {
+  counts.captured = captured;
+  counts.seen = std::max(
+      counts.seen, captured + counts.dropped + counts.skipped + counts.unsupported + counts.not_captured);
 }
 
 }  // namespace
@@ -238,10 +248,8 @@ bool close_run(const std::string& path, const RunEnd& end, RunRecord& record, st
   if (!end.program.empty()) record.info.program = end.program;
   if (!end.via.empty()) record.info.via = end.via;
   for (const auto& member : end.further) record.info.further.push_back(member);
-  RunCounts& counts = record.counts;
-  counts.captured = record.frames.size();
-  counts.seen = std::max(counts.seen, counts.captured + counts.dropped + counts.skipped + counts.unsupported +
-                                          counts.not_captured);
+  settle(record.counts, record.presented_frames());
+  settle(record.target_counts, record.frames.size() - record.presented_frames());
   std::string json, reason;
   read_text(path + "/run.json", json, reason);
   if (replace_file(path + "/run.json", finished_run_json(json, record, end), reason)) return true;

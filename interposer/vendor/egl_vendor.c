@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "../preload/entry_points.h"
+#include "../preload/gl_hooks.h"
 #include "../preload/presenting.h"
 #include "../preload/real_dlsym.h"
 
@@ -15,6 +16,8 @@ static void* (*driver_get_proc_address)(const char* name);
 static void* get_proc_address(const char* name) {
   void* real = driver_get_proc_address(name);
   const int entry = real != NULL ? tp_find_entry(name) : -1;
+  const int gl = real != NULL && entry < 0 ? tp_find_gl(name) : -1;
+  if (gl >= 0) return tp_gl_answer(gl, real, false);
   return entry >= 0 && entry != TP_EGL_GET_PROC_ADDRESS ? tp_bind((enum tp_entry)entry, real) : real;
 }
 

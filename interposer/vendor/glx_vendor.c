@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "../preload/entry_points.h"
+#include "../preload/gl_hooks.h"
 #include "../preload/presenting.h"
 #include "../preload/real_dlsym.h"
 
@@ -14,6 +15,8 @@ static void* (*driver_get_proc_address)(const GLubyte* name);
 static void* get_proc_address(const GLubyte* name) {
   void* real = driver_get_proc_address(name);
   const int entry = real != NULL ? tp_find_entry((const char*)name) : -1;
+  const int gl = real != NULL && entry < 0 ? tp_find_gl((const char*)name) : -1;
+  if (gl >= 0) return tp_gl_answer(gl, real, false);
   const int looks_up = entry == TP_GLX_GET_PROC_ADDRESS || entry == TP_GLX_GET_PROC_ADDRESS_ARB;
   return entry >= 0 && !looks_up ? tp_bind((enum tp_entry)entry, real) : real;
 }

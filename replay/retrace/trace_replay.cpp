@@ -72,7 +72,9 @@ bool TraceReplay::prepare() {
   sha256_ = *digest;
   if (!input_.sha256.empty() && input_.sha256 != sha256_)
     return fail("has SHA-256 " + sha256_ + ", not " + input_.sha256 + " as the manifest says"), false;
-  if (trace_.frames == 0) {
+  const bool triggered =
+      run_options_.triggers != 0;  // then nobody knows beforehand how many frames there are
+  if (trace_.frames == 0 && !triggered) {
     const std::string cut =
         trace_.state == TraceState::kTruncated ? "truncated (" + trace_.reason + "), " : "";
     fail(cut + "presents no frame (" + plural(trace_.calls, "call") + ", API " + name_of(trace_.api) + ")",
@@ -80,7 +82,7 @@ bool TraceReplay::prepare() {
     return false;
   }
   result_.frames_wanted = count_wanted(trace_, run_options_);
-  if (result_.frames_wanted == 0) {
+  if (result_.frames_wanted == 0 && !triggered) {
     fail("none of its " + plural(trace_.frames, "frame") + " is asked for", ReplayStatus::kNothingCaptured);
     return false;
   }
@@ -109,6 +111,8 @@ std::string TraceReplay::fingerprint() const {
   return text + "tile=" + std::to_string(model.tile_side) + " burst=" + std::to_string(model.burst_bits) +
          " verify=" + (model.verify ? "1" : "0") + " frames=" + run_options_.frames.text() +
          " every=" + std::to_string(run_options_.every) +
+         (run_options_.triggers != 0 ? " trigger=" + trigger_list(run_options_.triggers) : "") +
+         (run_options_.all_targets ? " targets=all" : "") +
          " api=" + std::to_string(static_cast<int>(options_.retracer)) +
          " display=" + std::to_string(static_cast<int>(options_.display));
 }
@@ -121,12 +125,13 @@ bool TraceReplay::keep_finished_run() {
   const std::string* options = find_member(run.info, "replay_options");
   if (trace == nullptr || options == nullptr || *trace != sha256_ || *options != fingerprint())
     return fail(run_path_ + " holds a run of another trace or with other options"), false;
-  if (run.state == "finished" && run.frames.size() == result_.frames_wanted) {
+  if (run_options_.triggers != 0) result_.frames_wanted = run.presented_frames();
+  if (run.state == "finished" && run.presented_frames() == result_.frames_wanted) {
     result_.status = ReplayStatus::kKept;
     if (trace_.state == TraceState::kTruncated)
       fail("truncated after " + plural(trace_.frames, "frame") + ": " + trace_.reason + "; its run was kept");
-    result_.frames_captured = run.frames.size();
-    frames_done_ = run.frames.size();
+    result_.frames_captured = run.presented_frames();
+    frames_done_ = run.presented_frames();
     result_.run = std::move(run);
     return false;
   }
@@ -151,6 +156,8 @@ void TraceReplay::run(const std::atomic<bool>& stop) {
     order.height = std::max(order.height, surface.height);
     const auto last = run_options_.frames.last();
     order.may_stop_early = order.may_stop_early || (last && *last + 1 < surface.frames);
+    // Rows are counted, and these would be counted with the rest.
+    if (run_options_.all_targets || run_options_.triggers != 0) order.may_stop_early = false;
   }
   std::string error;
   const std::vector<ReplayRoad> roads = replay_roads(trace_.api, options_.retracer, options_.display, error);
@@ -252,7 +259,9 @@ std::string TraceReplay::missing_text(const Attempt& attempt) const {
 void TraceReplay::judge(const Attempt& attempt) {
   const RunRecord& run = attempt.run;
   result_.seconds = attempt.outcome.seconds;
-  result_.frames_captured = run.frames.size();
+  const uint64_t captured = run.presented_frames();
+  result_.frames_captured = captured;
+  if (run_options_.triggers != 0 && !attempt.outcome.interrupted) result_.frames_wanted = captured;
   result_.retracer_lines.clear();
   if (!attempt.outcome.error.empty()) return fail(attempt.outcome.error);
   const std::string of = " of " + plural(result_.frames_wanted, "frame");
@@ -262,9 +271,9 @@ void TraceReplay::judge(const Attempt& attempt) {
   // A window that changes its shape goes on as a new surface, numbered from 0 again: then the numbers asked
   // for may fall on more or fewer frames than the trace let expect, but each one presented is accounted for.
   const bool all_accounted = result_.frames_wanted != trace_.frames && run.counts.seen == trace_.frames &&
-                             run.frames.size() + run.counts.skipped == trace_.frames && !run.frames.empty();
-  if (all_accounted) result_.frames_wanted = run.frames.size();
-  if (run.frames.size() == result_.frames_wanted && !attempt.outcome.interrupted) {
+                             captured + run.counts.skipped == trace_.frames && captured > 0;
+  if (all_accounted) result_.frames_wanted = captured;
+  if (captured == result_.frames_wanted && captured > 0 && !attempt.outcome.interrupted) {
     if (mismatched_blocks > 0)
       return fail("--verify: " + plural(mismatched_blocks, "block") + " differ after decoding");
     if (trace_.state == TraceState::kTruncated)
@@ -278,10 +287,10 @@ void TraceReplay::judge(const Attempt& attempt) {
   }
   result_.retracer_lines = attempt.outcome.last_lines;
   if (run.state == "failed" && !run.reason.empty())
-    return fail("captured " + std::to_string(run.frames.size()) + of + ": " + run.reason);
-  if (run.frames.empty())
+    return fail("captured " + std::to_string(captured) + of + ": " + run.reason);
+  if (captured == 0)
     return fail("no frame captured" + of + ": " + missing_text(attempt), ReplayStatus::kNothingCaptured);
-  fail("captured " + std::to_string(run.frames.size()) + of + ": " + missing_text(attempt));
+  fail("captured " + std::to_string(captured) + of + ": " + missing_text(attempt));
 }
 
 }  // namespace tilepress

@@ -171,7 +171,8 @@ ShimRun ShimTest::run(const std::vector<std::string>& command,
     for (const auto& entry : fs::directory_iterator(output))
       result.runs.push_back(
           {entry.path(), read_table(entry.path() / "frames.csv"), read_table(entry.path() / "schemes.csv"),
-           read_table(entry.path() / "presents.csv"), read_file(entry.path() / "run.json")});
+           read_table(entry.path() / "presents.csv"), read_table(entry.path() / "surfaces.csv"),
+           read_file(entry.path() / "run.json")});
   std::sort(result.runs.begin(), result.runs.end(),
             [](const auto& a, const auto& b) { return a.path < b.path; });
   for (const auto& entry : fs::directory_iterator(session))

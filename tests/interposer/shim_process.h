@@ -39,7 +39,7 @@ const std::string& own_display();
 struct CapturedRun {
   std::filesystem::path path;
   std::vector<std::map<std::string, std::string>> frames, schemes;  ///< rows by column name
-  std::vector<std::map<std::string, std::string>> presents;
+  std::vector<std::map<std::string, std::string>> presents, surfaces;
   std::string json;
   std::string json_text(const std::string& key) const;  ///< of a string member, at any depth; first found
   int64_t json_number(const std::string& key) const;

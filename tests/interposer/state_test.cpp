@@ -37,6 +37,29 @@ TEST_P(WholeState, IsAsWithoutTheShim) {
     EXPECT_EQ(test.dump(0, frame), expected_picture(frame, 33, 21, true)) << "frame " << frame;
 }
 
+/// Framebuffer objects are read in the program's own context, with all that it has set.
+TEST_P(WholeState, IsAsWithoutTheShimWhereFramebufferObjectsAreRead) {
+  const std::vector<std::string> command = {TILEPRESS_STATE_SNAPSHOT, GetParam().api, "finish"};
+  const ProcessResult without = run_process(command, {{"LD_PRELOAD", ""}});
+  ShimTest test;
+  const ShimRun with = test.run(command, {{"TILEPRESS_READBACK", GetParam().readback},
+                                          {"TILEPRESS_TRIGGER", "finish"},
+                                          {"TILEPRESS_TARGETS", "all"},
+                                          {"LD_PRELOAD", TILEPRESS_PRELOAD_GL}});
+  EXPECT_TRUE(with.process.exited_with(0));
+  const auto difference =
+      std::mismatch(without.out.begin(), without.out.end(), with.process.out.begin(), with.process.out.end());
+  EXPECT_EQ(with.process.out, without.out)
+      << "first difference: "
+      << std::string(difference.second, std::find(difference.second, with.process.out.end(), '\n'));
+  ASSERT_EQ(with.runs.size(), 1u) << with.log;
+  const bool sized = std::string(GetParam().readback) == "private" || std::string(GetParam().api) == "gl";
+  // Three swaps and three times glFinish, the first on the framebuffer object; and that object as a target.
+  // OpenGL ES tells the size of a texture only in a private context.
+  EXPECT_EQ(with.runs[0].frames.size(), sized ? 7u : 5u) << with.log;
+  EXPECT_EQ(with.runs[0].json_number("seen"), 6);
+}
+
 INSTANTIATE_TEST_SUITE_P(State, WholeState,
                          ::testing::Values(Case{"es2", "private"}, Case{"es3", "private"},
                                            Case{"gl", "private"}, Case{"es2", "in-context"},

@@ -15,6 +15,13 @@ namespace tilepress {
 
 class AppendFile;
 
+/// Surfaces that are framebuffer objects' images (--targets all) are numbered from here, those that are
+/// presented from 0: the rows of these are the same with and without.
+constexpr uint32_t kFirstTargetSurface = 1'000'000;
+constexpr bool is_target(uint32_t surface) {
+  return surface >= kFirstTargetSurface;
+}
+
 /// What run.json tells beside the totals.
 struct RunInfo {
   std::vector<std::string> command;  ///< argv of the captured program or of the tool
@@ -25,8 +32,9 @@ struct RunInfo {
   std::vector<std::pair<std::string, std::string>> further;  ///< more string members
 };
 
+/// Of what is presented, or of the targets.
 struct RunCounts {
-  uint64_t seen = 0;          ///< frames presented
+  uint64_t seen = 0;          ///< frames presented, or targets that the program turned away from
   uint64_t captured = 0;      ///< frames with rows
   uint64_t dropped = 0;       ///< lost because the queue was full (--on-full drop)
   uint64_t skipped = 0;       ///< not asked for (--frames, --every)
@@ -49,7 +57,7 @@ class RunWriter {
   bool create(const std::string& path, const RunInfo& info, const RunOptions& options);
   bool append(const FrameStatistics& frame);
   /// May be called at any time; run.json follows within half a second or at finish().
-  void set_counts(const RunCounts& counts);
+  void set_counts(const RunCounts& counts, const RunCounts& targets = {});
   void set_info(const RunInfo& info);
   /// state: "finished", or "failed" with the reason.
   bool finish(const std::string& state, const std::string& reason);
@@ -57,7 +65,7 @@ class RunWriter {
   bool is_open() const;
   const std::string& path() const { return path_; }
   const std::string& error() const { return error_; }
-  /// Sums over the non-warmup frames, in the order of the schemes.
+  /// Sums over the non-warmup frames that are presented, in the order of the schemes.
   const std::vector<SchemeStatistics>& totals() const { return totals_; }
   uint64_t measured_frames() const { return measured_frames_; }
 
@@ -66,10 +74,10 @@ class RunWriter {
   std::string path_, error_, started_;
   RunInfo info_;
   RunOptions options_;
-  RunCounts counts_;
+  RunCounts counts_, target_counts_;
   std::vector<std::string> scheme_names_;
-  std::vector<SchemeStatistics> totals_;
-  uint64_t measured_frames_ = 0;
+  std::vector<SchemeStatistics> totals_, target_totals_;
+  uint64_t measured_frames_ = 0, measured_targets_ = 0;
   std::unique_ptr<AppendFile> frames_, schemes_;
   uint64_t last_json_ns_ = 0;
   std::string row_buffer_;

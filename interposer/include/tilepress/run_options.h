@@ -35,25 +35,34 @@ class FrameSet {
 
 enum class OnFull : uint8_t { kBlock, kDrop };
 
+/// GL calls that end a frame of a program that does not present it. Bits of RunOptions::triggers.
+enum Trigger : uint32_t { kTriggerFinish = 1, kTriggerFlush = 2, kTriggerReadPixels = 4 };
+
 /// Options that `run`, `replay`, `frames` and the shim share.
 struct RunOptions {
   std::vector<SchemeSpec> schemes = default_schemes();
-  ModelOptions model;  ///< tile, burst, verify
-  FrameSet frames;     ///< frame numbers to take, per surface
-  uint64_t every = 1;  ///< of those, every n-th frame number (frame % every == 0)
+  ModelOptions model;              ///< tile, burst, verify
+  FrameSet frames;                 ///< frame numbers to take, per surface
+  uint64_t every = 1;              ///< of those, every n-th frame number (frame % every == 0)
   uint64_t heatmaps_every = 0;     ///< a heat map of every n-th frame number; 0 = none
   uint64_t dump_frames_every = 0;  ///< the pixels of every n-th frame number; 0 = none
   OnFull on_full = OnFull::kBlock;
-  std::string output;  ///< -o DIR; absolute where it goes into an environment
+  uint32_t triggers = 0;     ///< Trigger bits
+  bool all_targets = false;  ///< framebuffer objects too, not only what is presented
+  std::string output;        ///< -o DIR; absolute where it goes into an environment
   std::string log_level = "warn";
   std::string log_file;  ///< where the shim writes its log; empty = nowhere
 
   bool takes(uint64_t frame) const { return frames.contains(frame) && frame % every == 0; }
 };
 
+/// "finish,readpixels" and the like; empty for none.
+std::string trigger_list(uint32_t triggers);
+
 /// Sets one option by its long name without dashes ("scheme", "tile", "burst", "frames", "every", "verify",
-/// "heatmaps", "dump-frames", "on-full", "log-level", "log-file", "output"). "scheme" takes a space-separated list and replaces the
-/// schemes. Returns false and one line in `error` for an unknown name or a value out of range.
+/// "heatmaps", "dump-frames", "on-full", "trigger" (a list with commas), "targets", "log-level", "log-file",
+/// "output"). "scheme" takes a space-separated list and replaces the schemes. Returns false and one line in
+/// `error` for an unknown name or a value out of range.
 bool set_run_option(RunOptions& options, std::string_view name, std::string_view value, std::string& error);
 
 /// The environment that makes the shim run with these options: TILEPRESS_OUT, TILEPRESS_SCHEME,

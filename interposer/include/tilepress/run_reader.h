@@ -1,6 +1,7 @@
 // Run reader: a run directory as statistics again, repaired where its program was killed.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,14 +19,24 @@ struct RunRecord {
   std::string reason;
   std::string started;  ///< UTC, ISO 8601; empty if run.json does not tell
   RunInfo info;
-  RunCounts counts;
+  RunCounts counts, target_counts;
   uint64_t burst_bits = 128;
   std::vector<std::string> scheme_names;  ///< in the order of the run's options
   std::vector<FrameStatistics>
       frames;  ///< complete frames in file order; schemes in the order of scheme_names
-  /// Sums over the frames that are not warmup, in the order of scheme_names.
+  /// Sums over the presented frames that are not warmup, in the order of scheme_names.
   std::vector<SchemeStatistics> totals;
-  uint64_t measured_frames = 0;  ///< frames that are not warmup
+  uint64_t measured_frames = 0;  ///< presented frames that are not warmup
+  /// The same for targets (run_directory.h).
+  std::vector<SchemeStatistics> target_totals;
+  uint64_t measured_targets = 0;
+
+  /// Of `frames`, those that are presented: the others are targets.
+  uint64_t presented_frames() const {
+    return static_cast<uint64_t>(
+        std::count_if(frames.begin(), frames.end(),
+                      [](const FrameStatistics& frame) { return !is_target(frame.surface); }));
+  }
 };
 
 /// True if `path` holds any file of a run.
@@ -51,8 +62,8 @@ struct RunEnd {
 
 /// Closes a run whose program has ended: cuts off a torn last row and the rows of an incomplete frame, and
 /// replaces run.json by one with totals over what is there. What the run itself has noted ("finished",
-/// "failed") stays, except that a signal overrules "finished", and `end.overrules` both. `record` receives the run as it then is. False
-/// and one line in `error` on failure.
+/// "failed") stays, except that a signal overrules "finished", and `end.overrules` both. `record` receives
+/// the run as it then is. False and one line in `error` on failure.
 bool close_run(const std::string& path, const RunEnd& end, RunRecord& record, std::string& error);
 
 }  // namespace tilepress

@@ -1,5 +1,5 @@
-/* glfw_picture egl|glx FRAMES WIDTH HEIGHT: presents the known picture in a GLFW window with the context
- * asked for. */
+/* glfw_picture egl|glx|osmesa FRAMES WIDTH HEIGHT: presents the known picture in a GLFW window with the
+ * context asked for. */
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <stdio.h>
@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_ES_API);
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
   }
+  if (strcmp(argv[1], "osmesa") == 0) glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_OSMESA_CONTEXT_API);
   glfwWindowHint(GLFW_RESIZABLE, GLFW_FALSE);
   glfwWindowHint(GLFW_ALPHA_BITS, 0);
   GLFWwindow* window = glfwCreateWindow(width, height, "known picture", NULL, NULL);

@@ -1,6 +1,6 @@
-/* state_snapshot es2|es3|gl: sets awkward state, swaps, and prints every state that can be asked for, before
-   and after, and every error flag. With and without the shim it prints the same text. "Every state": all
-   enums below 0xA000 that glGetIntegerv accepts, asked by trying. */
+/* state_snapshot es2|es3|gl [finish]: sets awkward state, swaps, and prints every state that can be asked
+   for, before and after, and every error flag. With and without the shim it prints the same text. "Every
+   state": all enums below 0xA000 that glGetIntegerv accepts, asked by trying. */
 #define GL_GLEXT_PROTOTYPES
 #include "egl_session.h"
 
@@ -51,6 +51,7 @@ static void set_awkward_state(int es2, int desktop) {
   glGenFramebuffers(1, names + 1);
   glBindFramebuffer(GL_FRAMEBUFFER, names[1]);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, names[0], 0);
+  glClear(GL_COLOR_BUFFER_BIT);
   glPixelStorei(GL_PACK_ALIGNMENT, 8);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 2);
   glViewport(3, 4, 5, 6);
@@ -88,6 +89,7 @@ int main(int argc, char** argv) {
     print_state("before");
     print_egl("before", display, surface, context);
     glEnable(0xBAD);  // an error the program has not asked for yet
+    if (argc > 2) glFinish();
     const EGLBoolean result = eglSwapBuffers(display, surface);
     printf("swap %u 0x%x\n", result, (unsigned)eglGetError());
     const GLenum pending = glGetError(), then = glGetError();

@@ -1,0 +1,108 @@
+// OSMesa source: the buffer that OSMesaMakeCurrent named, read through GL, because the memory itself follows
+// the rendering only when the program flushes.
+#include <GL/osmesa.h>
+
+#include "interposer/engine/gl_readback.h"
+#include "interposer/engine/in_context_readback.h"
+#include "interposer/engine/library_symbols.h"
+#include "interposer/engine/present_source.h"
+
+namespace tilepress {
+namespace {
+
+struct OsmesaFunctions {
+  decltype(&OSMesaGetCurrentContext) GetCurrentContext = nullptr;
+  decltype(&OSMesaGetIntegerv) GetIntegerv = nullptr;
+
+  bool load(const LibrarySymbols& library) {
+    GetCurrentContext =
+        reinterpret_cast<decltype(GetCurrentContext)>(library.find("OSMesaGetCurrentContext"));
+    GetIntegerv = reinterpret_cast<decltype(GetIntegerv)>(library.find("OSMesaGetIntegerv"));
+    return GetCurrentContext != nullptr && GetIntegerv != nullptr;
+  }
+};
+
+class OsmesaSource final : public PresentSource {
+ public:
+  OsmesaSource(const OsmesaFunctions& osmesa, const GlFunctions& gl) : osmesa_(osmesa), gl_(gl) {}
+
+  bool describe(const TilepressPresent&, WindowKey& key, SurfaceShape& shape, std::string& reason) override {
+    const GLint width = ask(OSMESA_WIDTH), height = ask(OSMESA_HEIGHT);
+    if (width < 1 || height < 1) {
+      reason = "no buffer is current";
+      return false;
+    }
+    key = {context(), 0};
+    shape = {static_cast<uint32_t>(width), static_cast<uint32_t>(height), format()};
+    return true;
+  }
+
+  bool read(const TilepressPresent&, const SurfaceShape& shape, CapturedFrame& frame,
+            std::string& reason) override {
+    if (read_in_program_context(gl_, shape, GL_FRONT, frame)) return true;
+    reason = "the program's context cannot be read";
+    return false;
+  }
+
+  bool find_current(TilepressPresent& present) override {
+    present.display = nullptr;
+    present.surface = 0;
+    return osmesa_.GetCurrentContext() != nullptr;
+  }
+  const void* context() const override { return osmesa_.GetCurrentContext(); }
+  const GlFunctions& gl() const override { return gl_; }
+  bool beside(const std::function<void()>&, std::string& reason) override {
+    reason = "an OSMesa context is alone on its thread";
+    return false;
+  }
+  void release(void*) override {}
+
+  GlStrings strings() const override {
+    const auto text = [&](GLenum name) {
+      const GLubyte* value = gl_.GetString(name);
+      return std::string(value != nullptr ? reinterpret_cast<const char*>(value) : "");
+    };
+    return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)};
+  }
+  const char* api() const override { return "OSMesa"; }
+
+ private:
+  GLint ask(GLint question) const {
+    GLint value = 0;
+    osmesa_.GetIntegerv(question, &value);
+    return value;
+  }
+
+  /// Pixels of 24 bits, and of floats or 16 bits a channel, are none of the modelled formats.
+  std::optional<PixelFormat> format() const {
+    const GLint type = ask(OSMESA_TYPE);
+    switch (ask(OSMESA_FORMAT)) {
+      case OSMESA_RGBA:
+      case OSMESA_BGRA:
+      case OSMESA_ARGB:
+        return type == GL_UNSIGNED_BYTE ? std::optional(PixelFormat::kRgba8) : std::nullopt;
+      case OSMESA_RGB_565:
+        return type == GL_UNSIGNED_SHORT_5_6_5 ? std::optional(PixelFormat::kRgb565) : std::nullopt;
+      default:
+        return std::nullopt;
+    }
+  }
+
+  const OsmesaFunctions osmesa_;
+  const GlFunctions gl_;
+};
+
+}  // namespace
+
+std::unique_ptr<PresentSource> make_osmesa_source(const TilepressHost& host,
+                                                  const TilepressPresent& present) {
+  const LibrarySymbols library(host, present);
+  OsmesaFunctions osmesa;
+  GlFunctions gl;
+  if (!osmesa.load(library)) return nullptr;
+  const auto get = reinterpret_cast<void* (*)(const char*)>(library.find("OSMesaGetProcAddress"));
+  if (get == nullptr || !gl.load([&](const char* name) { return get(name); })) return nullptr;
+  return std::make_unique<OsmesaSource>(osmesa, gl);
+}
+
+}  // namespace tilepress
