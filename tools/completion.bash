@@ -36,10 +36,11 @@ _tilepress() {
     --heatmaps | --dump-frames) mapfile -t COMPREPLY < <(compgen -W "every:" -- "$current"); return ;;
     --progress) mapfile -t COMPREPLY < <(compgen -W "auto never json" -- "$current"); return ;;
     --via) mapfile -t COMPREPLY < <(compgen -W "auto preload glvnd" -- "$current"); return ;;
-    --via) mapfile -t COMPREPLY < <(compgen -W "auto preload glvnd" -- "$current"); return ;;
     --api) mapfile -t COMPREPLY < <(compgen -W "auto egl glx" -- "$current"); return ;;
     --display) mapfile -t COMPREPLY < <(compgen -W "auto surfaceless xvfb x11" -- "$current"); return ;;
     --overlay) mapfile -t COMPREPLY < <(compgen -W "blend only off" -- "$current"); return ;;
+    --trigger) mapfile -t COMPREPLY < <(compgen -W "finish flush readpixels" -- "$current"); return ;;
+    --targets) mapfile -t COMPREPLY < <(compgen -W "presented all" -- "$current"); return ;;
     --on-full) mapfile -t COMPREPLY < <(compgen -W "block drop" -- "$current"); return ;;
     --log-level) mapfile -t COMPREPLY < <(compgen -W "trace debug info warn error off" -- "$current"); return ;;
   esac

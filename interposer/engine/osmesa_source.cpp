@@ -1,6 +1,7 @@
 // OSMesa source: the buffer that OSMesaMakeCurrent named, read through GL, because the memory itself follows
 // the rendering only when the program flushes.
-#include <GL/osmesa.h>
+#include <GL/gl.h>
+#include <GL/glext.h>
 
 #include "interposer/engine/gl_readback.h"
 #include "interposer/engine/in_context_readback.h"
@@ -10,9 +11,13 @@
 namespace tilepress {
 namespace {
 
+// Of GL/osmesa.h, which a machine that builds need not have (Mesa dropped OSMesa in 25.1).
+constexpr GLint kRgba = GL_RGBA, kBgra = 1, kArgb = 2, kRgb565 = 5;
+constexpr GLint kWidth = 0x20, kHeight = 0x21, kFormat = 0x22, kType = 0x23;
+
 struct OsmesaFunctions {
-  decltype(&OSMesaGetCurrentContext) GetCurrentContext = nullptr;
-  decltype(&OSMesaGetIntegerv) GetIntegerv = nullptr;
+  void* (*GetCurrentContext)() = nullptr;
+  void (*GetIntegerv)(GLint, GLint*) = nullptr;
 
   bool load(const LibrarySymbols& library) {
     GetCurrentContext =
@@ -27,7 +32,7 @@ class OsmesaSource final : public PresentSource {
   OsmesaSource(const OsmesaFunctions& osmesa, const GlFunctions& gl) : osmesa_(osmesa), gl_(gl) {}
 
   bool describe(const TilepressPresent&, WindowKey& key, SurfaceShape& shape, std::string& reason) override {
-    const GLint width = ask(OSMESA_WIDTH), height = ask(OSMESA_HEIGHT);
+    const GLint width = ask(kWidth), height = ask(kHeight);
     if (width < 1 || height < 1) {
       reason = "no buffer is current";
       return false;
@@ -75,13 +80,13 @@ class OsmesaSource final : public PresentSource {
 
   /// Pixels of 24 bits, and of floats or 16 bits a channel, are none of the modelled formats.
   std::optional<PixelFormat> format() const {
-    const GLint type = ask(OSMESA_TYPE);
-    switch (ask(OSMESA_FORMAT)) {
-      case OSMESA_RGBA:
-      case OSMESA_BGRA:
-      case OSMESA_ARGB:
+    const GLint type = ask(kType);
+    switch (ask(kFormat)) {
+      case kRgba:
+      case kBgra:
+      case kArgb:
         return type == GL_UNSIGNED_BYTE ? std::optional(PixelFormat::kRgba8) : std::nullopt;
-      case OSMESA_RGB_565:
+      case kRgb565:
         return type == GL_UNSIGNED_SHORT_5_6_5 ? std::optional(PixelFormat::kRgb565) : std::nullopt;
       default:
         return std::nullopt;

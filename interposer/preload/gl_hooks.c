@@ -82,6 +82,11 @@ int tp_find_gl(const char* name) {
   return -1;
 }
 
+bool tp_gl_concerns(int name) {
+  const uint32_t kind = (uint32_t)tp_gl_slots[name].kind;
+  return (1u << kind & (uint32_t)kTriggers) != 0 || (wanted() >> kind & 1) != 0;
+}
+
 extern HIDDEN char tp_gl_pool[];
 
 void* tp_gl_answer(int name, void* real, bool always) {

@@ -9,6 +9,10 @@
 // The line of `name` in gl_names.def, or -1.
 int tp_find_gl(const char* name);
 
+// Whether a lookup of line `name` can find anything but the real function: without an option only the
+// exported names.
+bool tp_gl_concerns(int name);
+
 // What a lookup must answer for line `name` of gl_names.def where the real answer is `real`: a stub in front
 // of it, or `real` itself where the call is not watched. `always`: also a trigger that is not asked for
 // (OSMesa's).

@@ -53,7 +53,8 @@ static struct tp_verdict decide(void* handle, const char* name, const char* vers
                                 void* real_function) {
   const struct tp_verdict forward = {real_function, NULL};
   const int entry = tp_find_entry(name), gl = entry < 0 ? tp_find_gl(name) : -1;
-  if ((entry < 0 && gl < 0) || real_function == NULL || tp_real_dlsym() == NULL) return forward;
+  if (entry < 0 && (gl < 0 || !tp_gl_concerns(gl))) return forward;
+  if (real_function == NULL || tp_real_dlsym() == NULL) return forward;
   void* real;
   if (handle == RTLD_NEXT) {
     if (!next_is_ours(caller)) return forward;
