@@ -8,8 +8,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 
 #include "interposer/engine/frame_dump.h"
 
@@ -65,7 +67,7 @@ void CaptureWorker::run() {
       CapturedFrame* frame = last ? nullptr : queue_.next();
       if (!writer_.is_open() && alive() && counts_.presented.seen + counts_.targets.seen > 0 &&
           !create_directory())
-        give_up(writer_.error());
+        give_up(writer_.error().empty() ? files_error_ : writer_.error());
       if (frame != nullptr) {
         if (frame->last_of_window)
           surfaces_.erase(frame->window);
@@ -93,8 +95,10 @@ bool CaptureWorker::create_directory() {
     path = stem + "-" + std::to_string(suffix);
   if (!writer_.create(path, info_, options_)) return false;
   if (!presents_.create(path + "/presents.csv", kPresentColumns) ||
-      !surface_rows_.create(path + "/surfaces.csv", kSurfaceColumns))
+      !surface_rows_.create(path + "/surfaces.csv", kSurfaceColumns)) {
+    files_error_ = path + ": " + std::strerror(errno);
     return false;
+  }
   pictures_.open(path, options_);
   live_.open(path, info_, options_);
   note_run_folder(path, info_.pid);

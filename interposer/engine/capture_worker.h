@@ -66,6 +66,7 @@ class CaptureWorker {
   RunWriter writer_;
   AppendFile presents_;      ///< presents.csv
   AppendFile surface_rows_;  ///< surfaces.csv
+  std::string files_error_;  ///< why one of the two could not be made
   FramePictures pictures_;
   LiveWriter live_;
   LivePictureWriter live_picture_;
