@@ -87,7 +87,6 @@ struct SurfaceEngine::State {
   std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere
   BlockBits* block_bits = nullptr;
   uint32_t burst_round = 0, burst_shift = 0;  ///< burst_bits is a power of two
-
   void open(const FormatTraits& format);
   Collector& collector_for(const FvcConfig& config, const FormatTraits& format);
   void begin_frame(FrameStatistics& out);
