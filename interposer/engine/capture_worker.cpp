@@ -72,7 +72,7 @@ void CaptureWorker::run() {
         if (frame->last_of_window)
           surfaces_.erase(frame->window);
         else if (alive())
-          process(*frame);
+          process_in_turn(*frame);
         queue_.done(frame);
       }
       if (writer_.is_open()) publish_counts();
@@ -85,6 +85,7 @@ void CaptureWorker::run() {
   } catch (const std::exception& error) {
     give_up(error.what());
   }
+  yielding_.end();
 }
 
 bool CaptureWorker::create_directory() {
@@ -104,6 +105,16 @@ bool CaptureWorker::create_directory() {
   note_run_folder(path, info_.pid);
   log_.write(LogLevel::kInfo, path + ": run started");
   return true;
+}
+
+void CaptureWorker::process_in_turn(const CapturedFrame& frame) {
+  if (options_.on_full == OnFull::kBlock && pace_.yields(queue_.pending())) {
+    const YieldingThread::Turn turn = yielding_.run([&] { process(frame); });
+    pace_.yielded(turn.wall_ns, turn.cpu_ns, queue_.full());
+  } else {
+    process(frame);
+    pace_.hurried();
+  }
 }
 
 void CaptureWorker::process(const CapturedFrame& frame) {

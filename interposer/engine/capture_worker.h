@@ -9,6 +9,8 @@
 
 #include "interposer/engine/frame_queue.h"
 #include "interposer/engine/shim_log.h"
+#include "interposer/engine/worker_pace.h"
+#include "interposer/engine/yielding_thread.h"
 #include "interposer/run/append_file.h"
 #include "tilepress/frame_pictures.h"
 #include "tilepress/live_page.h"
@@ -52,6 +54,7 @@ class CaptureWorker {
   };
   void run();
   bool create_directory();
+  void process_in_turn(const CapturedFrame& frame);
   void process(const CapturedFrame& frame);
   bool append_present(const CapturedFrame& frame);
   bool append_surface(const CapturedFrame& frame);
@@ -73,6 +76,8 @@ class CaptureWorker {
   BlockBits watched_bits_;                ///< for live_picture_, when no heat map is due
   std::map<uint32_t, Surface> surfaces_;  ///< by window
   FrameStatistics statistics_;
+  WorkerPace pace_;
+  YieldingThread yielding_;
   std::thread thread_;
   std::mutex finish_mutex_;
   std::atomic<bool> alive_{true};

@@ -36,6 +36,8 @@ class FrameQueue {
   bool closed_and_empty();
   /// Frames submitted that the worker has not finished.
   uint32_t pending();
+  /// As many as the bound: who acquires a frame now has to wait, or gets none.
+  bool full() { return pending() >= depth_; }
 
  private:
   const uint32_t depth_;

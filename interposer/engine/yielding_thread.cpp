@@ -1,0 +1,77 @@
+// Yielding thread: a lock, a condition, a thread of nice 19.
+#include "interposer/engine/yielding_thread.h"
+
+#include <pthread.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#include <system_error>
+#include <utility>
+
+#include "interposer/engine/monotonic_clock.h"
+
+namespace tilepress {
+namespace {
+
+constexpr int kLowestPriority = 19;
+
+uint64_t thread_cpu_ns() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<uint64_t>(time.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(time.tv_nsec);
+}
+
+}  // namespace
+
+void YieldingThread::end() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+YieldingThread::Turn YieldingThread::run(const std::function<void()>& work) {
+  if (!thread_.joinable()) {
+    try {
+      thread_ = std::thread([this] { serve(); });
+      pthread_setname_np(thread_.native_handle(), "tilepress-calm");
+    } catch (const std::system_error&) {
+      work();
+      return {};
+    }
+  }
+  std::unique_lock lock(mutex_);
+  work_ = &work;
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return work_ == nullptr; });
+  if (const std::exception_ptr thrown = std::exchange(thrown_, nullptr)) std::rethrow_exception(thrown);
+  return turn_;
+}
+
+void YieldingThread::serve() {
+  setpriority(PRIO_PROCESS, 0, kLowestPriority);  // on Linux: of this thread
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [&] { return work_ != nullptr || ended_; });
+    if (work_ == nullptr) return;
+    lock.unlock();
+    const uint64_t begin_ns = now_ns(), begin_cpu_ns = thread_cpu_ns();
+    std::exception_ptr thrown;
+    try {
+      (*work_)();
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    const Turn turn{now_ns() - begin_ns, thread_cpu_ns() - begin_cpu_ns};
+    lock.lock();
+    turn_ = turn;
+    thrown_ = thrown;
+    work_ = nullptr;
+    changed_.notify_all();
+  }
+}
+
+}  // namespace tilepress

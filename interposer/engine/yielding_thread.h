@@ -1,0 +1,38 @@
+// Yielding thread: runs one piece of work at a time, when the machine has nothing more urgent to do.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace tilepress {
+
+/// A thread of the lowest ordinary priority. One that lowers its own priority may not raise it again without
+/// privileges, so work that is to be done at either priority needs a thread for each.
+class YieldingThread {
+ public:
+  struct Turn {
+    uint64_t wall_ns = 0, cpu_ns = 0;
+  };
+  ~YieldingThread() { end(); }
+  /// Has `work` done and waits for it; what it throws is thrown here. Starts the thread, with the caller's
+  /// signal mask, at first use; works itself where the system gives no thread.
+  Turn run(const std::function<void()>& work);
+  void end();
+
+ private:
+  void serve();
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  const std::function<void()>* work_ = nullptr;  ///< null: nothing to do
+  bool ended_ = false;
+  std::exception_ptr thrown_;
+  Turn turn_;
+  std::thread thread_;
+};
+
+}  // namespace tilepress
