@@ -79,6 +79,9 @@ void add_capture_options(CLI::App& app, RunOptions& options) {
            "What is presented, or also each image of the program's own framebuffers, a surface of its own "
            "(default: "
            "presented)");
+  add_text(app, options, "--readback", "readback", "auto|sync|async|in-context",
+           "Read frames at once, through pixel buffers, or in the program's own context (default: auto, as the "
+           "first frames of a window show)");
 }
 
 void add_on_full_option(CLI::App& app, RunOptions& options) {

@@ -41,6 +41,7 @@ _tilepress() {
     --overlay) mapfile -t COMPREPLY < <(compgen -W "blend only off" -- "$current"); return ;;
     --trigger) mapfile -t COMPREPLY < <(compgen -W "finish flush readpixels" -- "$current"); return ;;
     --targets) mapfile -t COMPREPLY < <(compgen -W "presented all" -- "$current"); return ;;
+    --readback) mapfile -t COMPREPLY < <(compgen -W "auto sync async in-context" -- "$current"); return ;;
     --on-full) mapfile -t COMPREPLY < <(compgen -W "block drop" -- "$current"); return ;;
     --log-level) mapfile -t COMPREPLY < <(compgen -W "trace debug info warn error off" -- "$current"); return ;;
   esac

@@ -51,6 +51,7 @@ Capture::Capture(const TilepressHost& host) : host_(host), pid_(getpid()), times
   if (const char* target = std::getenv("TILEPRESS_SIMD")) force_simd_target(target);  // unknown: the best one
   log_ = std::make_unique<ShimLog>(options_.log_file, options_.log_level);
   if (!error.empty()) log_->write(LogLevel::kError, error);
+  readback_ = std::make_unique<ReadbackChoices>(options_.readback);
   start_ns_ = now_ns();
 }
 
@@ -58,8 +59,8 @@ PresentSource* Capture::source_of(const TilepressPresent& present) {
   std::lock_guard lock(mutex_);
   for (const Source& known : sources_)
     if (known.real == present.real) return known.source.get();
-  auto source = present.api == TILEPRESS_EGL   ? make_egl_source(host_, present)
-                : present.api == TILEPRESS_GLX ? make_glx_source(host_, present)
+  auto source = present.api == TILEPRESS_EGL   ? make_egl_source(host_, present, reader_)
+                : present.api == TILEPRESS_GLX ? make_glx_source(host_, present, reader_)
                                                : make_osmesa_source(host_, present);
   if (source == nullptr) log_->write(LogLevel::kError, "the GL library lacks functions to read frames back");
   sources_.push_back({present.real, present.api, std::move(source)});
@@ -98,7 +99,10 @@ Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
   const SurfaceRegistry::Turn turn = registry_.turn(shot.key, shot.shape, shot.begin_ns);
   take.window = turn.window;
   take.begin_ns = shot.begin_ns;
-  if (turn.forgotten) worker.queue().submit_end_of(*turn.forgotten);
+  if (turn.forgotten) {
+    worker.queue().submit_end_of(*turn.forgotten);
+    readback_->forget(*turn.forgotten);
+  }
   const auto ends_as = [&](Outcome outcome) {
     take.outcome = outcome;
     return take;
@@ -118,11 +122,19 @@ Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
   if (take.frame == nullptr) return ends_as(Outcome::kDropped);
   const uint64_t waited_ns = now_ns() - wait_ns;
   CapturedFrame& frame = *take.frame;
+  const uint64_t pixels = uint64_t{shot.shape.width} * shot.shape.height;
+  frame.way = shot.any_way ? readback_->way(turn.window, pixels) : ReadWay::kSync;
+  frame.arrive = [&queue = worker.queue(), filled = take.frame](bool whole) { queue.arrived(filled, whole); };
   if (std::string reason; !shot.read(frame, reason)) {
     report(turn.surface, "not captured: " + reason);
     worker.queue().release(take.frame);
     take.frame = nullptr;
     return ends_as(Outcome::kNotCaptured);
+  }
+  if (shot.any_way) {
+    const std::string choice = readback_->note(turn.window, frame);
+    if (!choice.empty())
+      log_->write(LogLevel::kInfo, "surface " + std::to_string(turn.surface) + ": " + choice);
   }
   frame.window = turn.window;
   frame.surface = turn.surface;
@@ -178,6 +190,7 @@ bool Capture::begin_capture(TilepressPresent& present, uint64_t begin_ns) {
   if (std::string reason; !source->describe(present, shot.key, shot.shape, reason)) {
     log_->write(LogLevel::kDebug, reason);
   } else if (CaptureWorker* made = worker(present, *source)) {
+    shot.any_way = true;
     shot.read = [&](CapturedFrame& frame, std::string& why) {
       return source->read(present, shot.shape, frame, why);
     };
@@ -248,7 +261,12 @@ void Capture::forget_targets(const void* context, uintptr_t image, uintptr_t mas
 void Capture::surface_going(void* display, uintptr_t surface) {
   const auto window = registry_.forget({display, surface});
   CaptureWorker* known = worker_;
-  if (window && known != nullptr) known->queue().submit_end_of(*window);
+  if (!window) return;
+  readback_->forget(*window);
+  if (known != nullptr) known->queue().submit_end_of(*window);
+  std::lock_guard lock(mutex_);
+  for (const Source& source : sources_)
+    if (source.source != nullptr) source.source->trim(display);
 }
 
 void Capture::finish() {

@@ -10,8 +10,10 @@
 
 #include "interposer/engine/bound_framebuffer.h"
 #include "interposer/engine/capture_worker.h"
+#include "interposer/engine/late_reader.h"
 #include "interposer/engine/present_source.h"
 #include "interposer/engine/present_times.h"
+#include "interposer/engine/readback_probe.h"
 #include "interposer/engine/shim_log.h"
 #include "interposer/engine/surface_registry.h"
 #include "tilepress/run_options.h"
@@ -47,6 +49,7 @@ class Capture {
     std::string origin = "window";
     std::string damage;
     uint64_t begin_ns = 0;  ///< when its capture began
+    bool any_way = false;   ///< its pixels may come late
     std::function<bool(CapturedFrame& frame, std::string& reason)> read;
   };
   /// What came of it, between begin and end.
@@ -92,7 +95,9 @@ class Capture {
   std::mutex mutex_;  ///< guards sources_ and the making of worker_
   std::vector<Source> sources_;
   std::atomic<void*> public_[TILEPRESS_API_COUNT] = {};  ///< presenting functions of libraries known by name
-  std::atomic<CaptureWorker*> worker_{nullptr};          ///< never destroyed: the process may end at any time
+  std::unique_ptr<ReadbackChoices> readback_;
+  LateReader reader_;
+  std::atomic<CaptureWorker*> worker_{nullptr};  ///< never destroyed: the process may end at any time
 };
 
 }  // namespace tilepress

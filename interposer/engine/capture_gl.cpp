@@ -170,6 +170,7 @@ void Capture::take_default_framebuffer(const TilepressGlCall& call, const Tilepr
   shot.read = [&](CapturedFrame& frame, std::string& why) {
     if (!front) return source.read(present, shot.shape, frame, why);
     why = "the program's context cannot be read";
+    frame.way = ReadWay::kInContext;
     return read_in_program_context(source.gl(), shot.shape, buffers[0], frame);
   };
   CaptureWorker* made = worker(present, source);
@@ -213,6 +214,7 @@ void Capture::take_attachments(const TilepressPresent& present, PresentSource& s
     }
     shot.read = [&](CapturedFrame& frame, std::string& why) {
       why = "the program's context cannot be read";
+      frame.way = ReadWay::kInContext;
       return read_attachment_in_program_context(gl, image.attachment, use, image.shape, frame);
     };
     commit(image.known ? take(shot, *made) : miss(shot, image.reason));

@@ -20,8 +20,21 @@ namespace {
 
 constexpr uint32_t kQueueDepth = 3;
 constexpr const char* kPresentColumns =
-    "frame,surface,readback_ns,read_ns,wait_ns,damage,bind_ns,hand_off_ns,interval_ns,cause\n";
+    "frame,surface,readback_ns,read_ns,wait_ns,damage,bind_ns,hand_off_ns,interval_ns,cause,readback\n";
 constexpr const char* kSurfaceColumns = "surface,role,origin,width,height,format,color_space\n";
+
+const char* name_of(ReadWay way) {
+  switch (way) {
+    case ReadWay::kAsync:
+      return "async";
+    case ReadWay::kBoth:
+      return "both";
+    case ReadWay::kInContext:
+      return "in-context";
+    default:
+      return "sync";
+  }
+}
 
 void note_run_folder(const std::string& path, int64_t pid) {
   const char* session = getenv("TILEPRESS_SESSION");
@@ -71,6 +84,8 @@ void CaptureWorker::run() {
       if (frame != nullptr) {
         if (frame->last_of_window)
           surfaces_.erase(frame->window);
+        else if (frame->lost)
+          ++counts_.of(frame->role).not_captured;
         else if (alive())
           process_in_turn(*frame);
         queue_.done(frame);
@@ -156,7 +171,7 @@ bool CaptureWorker::append_present(const CapturedFrame& frame) {
   row += frame.damage;
   for (const uint64_t value : {frame.bind_ns, frame.hand_off_ns, frame.interval_ns})
     (row += ',') += std::to_string(value);
-  return presents_.append(row.append(",").append(frame.cause).append("\n"));
+  return presents_.append(row.append(",").append(frame.cause).append(",").append(name_of(frame.way)) + "\n");
 }
 
 bool CaptureWorker::append_surface(const CapturedFrame& frame) {

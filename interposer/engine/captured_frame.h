@@ -3,13 +3,24 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 
+#include "interposer/engine/late_read.h"
 #include "interposer/engine/pixel_memory.h"
 #include "interposer/engine/surface_registry.h"
 #include "tilepress/surface.h"
 
 namespace tilepress {
+
+/// How a frame is read. Asked of a source, which notes what came of it.
+enum class ReadWay : uint8_t {
+  kSync,       ///< into the frame's own memory, in the call
+  kAsync,      ///< into a pixel buffer; the pixels follow
+  kBoth,       ///< synchronously, and into a pixel buffer too for the time it takes
+  kInContext,  ///< synchronously, in the program's own context
+};
 
 /// Owns its pixels; the memory is kept when the frame is used again.
 struct CapturedFrame {
@@ -29,6 +40,16 @@ struct CapturedFrame {
   std::string origin;          ///< of its surface: "window", "texture 3"
   bool srgb = false;           ///< its values are encoded as sRGB
   std::string damage;  ///< "x y width height;…" from the bottom left, as presented; empty = everything
+
+  ReadWay way = ReadWay::kSync;
+  uint64_t buffered_ns = 0;        ///< of kBoth: what the read into a pixel buffer took; 0 = cannot be done
+  std::unique_ptr<LateRead> late;  ///< of kAsync, until it is posted to the late reader
+  std::function<void(bool whole)> arrive;  ///< to be called there once, from any thread
+
+  // The frame queue's, under its lock.
+  bool awaited = false;   ///< the pixels have not arrived yet
+  bool lost = false;      ///< they never will
+  bool unwanted = false;  ///< released before they arrived
 
   SurfaceView view;  ///< lies in `pixels`
 

@@ -4,7 +4,9 @@
 #include <X11/Xlib.h>
 
 #include <algorithm>
+#include <functional>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "interposer/engine/config_cache.h"
@@ -19,10 +21,11 @@ class DisplayEnds {
     static auto* const ends = new DisplayEnds;  // outlives everything
     return *ends;
   }
-  void add(ContextPool* pool, ConfigCache* configs) {
+  /// `end` may be null; it is told which contexts of the pool go with the display.
+  using End = std::function<void(const void* display, const std::vector<void*>& contexts)>;
+  void add(ContextPool* pool, ConfigCache* configs, End end) {
     std::lock_guard lock(mutex_);
-    pools_.push_back(pool);
-    configs_.push_back(configs);
+    keepers_.push_back({pool, configs, std::move(end)});
   }
   /// True the first time for `display`.
   bool watch(Display* display) {
@@ -36,15 +39,22 @@ class DisplayEnds {
     DisplayEnds& ends = instance();
     std::lock_guard lock(ends.mutex_);
     std::erase(ends.watched_, display);
-    for (ContextPool* pool : ends.pools_) pool->take_all(display);
-    for (ConfigCache* configs : ends.configs_) configs->forget(display);
+    for (const Keeper& keeper : ends.keepers_) {
+      const std::vector<void*> contexts = keeper.pool->take_all(display);
+      if (keeper.end) keeper.end(display, contexts);
+      keeper.configs->forget(display);
+    }
     return 0;
   }
 
  private:
   std::mutex mutex_;
-  std::vector<ContextPool*> pools_;
-  std::vector<ConfigCache*> configs_;
+  struct Keeper {
+    ContextPool* pool;
+    ConfigCache* configs;
+    End end;
+  };
+  std::vector<Keeper> keepers_;
   std::vector<Display*> watched_;
 };
 

@@ -13,6 +13,7 @@
 #include "interposer/engine/in_context_readback.h"
 #include "interposer/engine/library_symbols.h"
 #include "interposer/engine/monotonic_clock.h"
+#include "interposer/engine/pixel_buffer_groups.h"
 #include "interposer/engine/present_source.h"
 
 namespace tilepress {
@@ -53,7 +54,8 @@ struct EglFunctions {
 
 class EglSource final : public PresentSource {
  public:
-  EglSource(const EglFunctions& egl, const GlFunctions& gl) : egl_(egl), gl_(gl) {}
+  EglSource(const EglFunctions& egl, const GlFunctions& gl, LateReader& reader)
+      : egl_(egl), gl_(gl), reader_(reader) {}
 
   bool describe(const TilepressPresent& present, WindowKey& key, SurfaceShape& shape,
                 std::string& reason) override {
@@ -146,16 +148,24 @@ class EglSource final : public PresentSource {
       default:
         break;
     }
+    frame.way = ReadWay::kInContext;
     if (read_in_program_context(gl_, shape, buffer_of(present), frame)) return true;
     if (reason.empty()) reason = "the program's context cannot be read";
     return false;
   }
 
   void release(void* display) override {
+    if (!groups_.of_display(display).empty()) reader_.let_go(display);
     for (ContextPool* pool : {&pool_, &sharing_})
-      for (void* own : pool->take_all(display)) egl_.DestroyContext(display, own);
+      for (void* own : pool->take_all(display)) {
+        const std::shared_ptr<PixelBuffers> buffers = groups_.take(own);
+        if (buffers != nullptr && buffers->twin() != nullptr) buffers->twin()->destroy();
+        egl_.DestroyContext(display, own);
+      }
     configs_.forget(display);
   }
+
+  void trim(void* display) override { trim_later(groups_.of_display(display), reader_); }
 
   GlStrings strings() const override {
     const auto text = [&](GLenum name) {
@@ -197,7 +207,10 @@ class EglSource final : public PresentSource {
     }
     const uint64_t bound_ns = now_ns();
     GLenum error = 0;
-    const bool taken = bound && read_back_buffer(gl_, shape, frame, error);
+    const bool taken =
+        bound &&
+        read_back_buffer(gl_, shape, buffers_of(present.display, config, own, frame.way), frame, error);
+    if (taken && frame.late != nullptr) reader_.post(frame);  // before our context may go
     const uint64_t taken_ns = now_ns();
     if (bound && !egl_.MakeCurrent(present.display, draw, read, context)) {
       reason = "the program's context could not be made current again";
@@ -283,6 +296,30 @@ class EglSource final : public PresentSource {
     return context;
   }
 
+  /// The pixel buffers of our context `own`, which is current, where they are wanted and can be had.
+  std::shared_ptr<PixelBuffers> buffers_of(EGLDisplay display, EGLConfig config, EGLContext own,
+                                           ReadWay way) {
+    return groups_.of_context(own, way, gl_, display, reader_, [&](TwinContext& twin) {
+      const char* extensions = egl_.QueryString(display, EGL_EXTENSIONS);
+      if (extensions == nullptr || strstr(extensions, "EGL_KHR_surfaceless_context") == nullptr) return false;
+      EGLint type = EGL_OPENGL_ES_API;
+      egl_.QueryContext(display, own, EGL_CONTEXT_CLIENT_TYPE, &type);
+      const EGLenum program_api = egl_.QueryAPI(), api = static_cast<EGLenum>(type);
+      const EGLint embedded[] = {EGL_CONTEXT_CLIENT_VERSION, 3, EGL_NONE}, *none = embedded + 2;
+      if (!egl_.BindAPI(api)) return false;
+      const EGLContext second =
+          egl_.CreateContext(display, config, own, api == EGL_OPENGL_ES_API ? embedded : none);
+      egl_.BindAPI(program_api);
+      if (second == EGL_NO_CONTEXT) return false;
+      twin.enter = [=, this] {
+        return egl_.BindAPI(api) && egl_.MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, second);
+      };
+      twin.leave = [=, this] { egl_.MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); };
+      twin.destroy = [=, this] { egl_.DestroyContext(display, second); };
+      return true;
+    });
+  }
+
   EGLContext create(EGLDisplay display, EGLConfig config) const {
     const EGLint renderable = attribute(display, config, EGL_RENDERABLE_TYPE);
     const EGLenum program_api = egl_.QueryAPI();
@@ -301,14 +338,17 @@ class EglSource final : public PresentSource {
 
   const EglFunctions egl_;
   const GlFunctions gl_;
-  ContextPool pool_;     ///< by config
-  ContextPool sharing_;  ///< by the program's context
+  ContextPool pool_;          ///< by config
+  ContextPool sharing_;       ///< by the program's context
+  PixelBufferGroups groups_;  ///< of the contexts in pool_
+  LateReader& reader_;
   ConfigCache configs_;
 };
 
 }  // namespace
 
-std::unique_ptr<PresentSource> make_egl_source(const TilepressHost& host, const TilepressPresent& present) {
+std::unique_ptr<PresentSource> make_egl_source(const TilepressHost& host, const TilepressPresent& present,
+                                               LateReader& reader) {
   const LibrarySymbols library(host, present);
   EglFunctions egl;
   GlFunctions gl;
@@ -320,7 +360,7 @@ std::unique_ptr<PresentSource> make_egl_source(const TilepressHost& host, const 
       if (void* found = library.find_in_loaded(other, name)) return found;
     return nullptr;
   });
-  return loaded ? std::make_unique<EglSource>(egl, gl) : nullptr;
+  return loaded ? std::make_unique<EglSource>(egl, gl, reader) : nullptr;
 }
 
 }  // namespace tilepress

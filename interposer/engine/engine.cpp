@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "interposer/engine/capture.h"
+#include "interposer/engine/own_calls.h"
 #include "interposer/engine/target_watch.h"
 
 namespace tilepress {
@@ -24,19 +25,15 @@ Capture* capture_of_this_process() {
   return known;
 }
 
-// True on a thread that is between begin and end, or in a call below. Where both roads are open, a call that
-// one has seen comes along the other once more; and our own calls come along it too.
-thread_local bool inside = false;
-
 int begin(TilepressPresent* present) {
-  if (inside) return 0;
-  inside = true;
+  if (inside_engine) return 0;
+  inside_engine = true;
   try {
-    inside = capture_of_this_process()->begin(*present);
+    inside_engine = capture_of_this_process()->begin(*present);
   } catch (...) {
-    inside = false;
+    inside_engine = false;
   }
-  return inside ? 1 : 0;
+  return inside_engine ? 1 : 0;
 }
 
 void end(TilepressPresent* present, int presented) {
@@ -44,7 +41,7 @@ void end(TilepressPresent* present, int presented) {
     capture_of_this_process()->end(*present, presented != 0);
   } catch (...) {
   }
-  inside = false;
+  inside_engine = false;
 }
 
 // Of this process, if it has captured anything.
@@ -54,27 +51,27 @@ Capture* known_capture() {
 }
 
 void gl_call(const TilepressGlCall* call) {
-  if (inside) return;
-  inside = true;
+  if (inside_engine) return;
+  inside_engine = true;
   try {
     capture_of_this_process()->gl_call(*call);
   } catch (...) {
   }
-  inside = false;
+  inside_engine = false;
 }
 
 void contexts_going(uint32_t api, void* display, void* context) {
-  if (inside) return;
-  inside = true;
+  if (inside_engine) return;
+  inside_engine = true;
   try {
     if (Capture* known = known_capture()) known->contexts_going(api, display, context);
   } catch (...) {
   }
-  inside = false;
+  inside_engine = false;
 }
 
 void surface_going(void* display, uintptr_t surface) {
-  if (inside) return;
+  if (inside_engine) return;
   try {
     if (Capture* known = known_capture()) known->surface_going(display, surface);
   } catch (...) {

@@ -7,6 +7,11 @@
 #include "interposer/engine/monotonic_clock.h"
 
 namespace tilepress {
+namespace {
+
+constexpr std::chrono::seconds kPatience{2};
+
+}  // namespace
 
 CapturedFrame* FrameQueue::acquire(bool wait) {
   std::unique_lock lock(mutex_);
@@ -20,6 +25,7 @@ std::unique_ptr<CapturedFrame> FrameQueue::any_free() {
   std::unique_ptr<CapturedFrame> frame = std::move(free_.back());
   free_.pop_back();
   frame->last_of_window = false;
+  frame->lost = false;
   return frame;
 }
 
@@ -46,7 +52,19 @@ void FrameQueue::submit(CapturedFrame* frame) {
 
 void FrameQueue::release(CapturedFrame* frame) {
   std::lock_guard lock(mutex_);
-  free_.emplace_back(frame);
+  frame->unwanted = frame->awaited;  // the late reader still writes to it
+  if (!frame->unwanted) free_.emplace_back(frame);
+}
+
+void FrameQueue::arrived(CapturedFrame* frame, bool whole) {
+  {
+    std::lock_guard lock(mutex_);
+    frame->awaited = false;
+    frame->lost = !whole;
+    if (frame->unwanted) free_.emplace_back(frame);
+    frame->unwanted = false;
+  }
+  changed_.notify_all();
 }
 
 void FrameQueue::wake() {
@@ -59,9 +77,13 @@ void FrameQueue::wake() {
 
 CapturedFrame* FrameQueue::next() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return !ready_.empty() || closed_ || woken_; });
+  changed_.wait(lock, [&] { return front_is_whole() || closed_ || woken_; });
+  if (closed_ && !ready_.empty() && !changed_.wait_for(lock, kPatience, [&] { return front_is_whole(); })) {
+    ready_.front()->awaited = false;
+    ready_.front()->lost = true;
+  }
   woken_ = false;
-  if (ready_.empty()) return nullptr;
+  if (!front_is_whole()) return nullptr;
   CapturedFrame* frame = ready_.front().release();
   ready_.pop_front();
   return frame;

@@ -21,12 +21,16 @@ class FrameQueue {
   /// A frame to fill. When `depth` frames are pending: waits if `wait`, else returns null. Null also after
   /// close().
   CapturedFrame* acquire(bool wait);
-  void submit(CapturedFrame* frame);    ///< filled and presented
+  void submit(CapturedFrame* frame);    ///< presented, and filled or awaited
   void submit_end_of(uint32_t window);  ///< the window presents no more; never waits
   void release(CapturedFrame* frame);   ///< back unused, or done with
   void wake();                          ///< makes next() return
+  /// The pixels of an awaited frame are there, or will never be. It may be submitted or released before or
+  /// after.
+  void arrived(CapturedFrame* frame, bool whole);
 
-  /// The worker's side: the next frame, or null after wake() or once closed and empty.
+  /// The worker's side: the next frame, or null after wake() or once closed and empty. Waits for one that is
+  /// awaited; once closed for two seconds, then it is lost.
   CapturedFrame* next();
   void done(CapturedFrame* frame);
 
@@ -41,8 +45,9 @@ class FrameQueue {
 
  private:
   const uint32_t depth_;
-  std::timed_mutex mutex_;
   std::unique_ptr<CapturedFrame> any_free();
+  bool front_is_whole() const { return !ready_.empty() && !ready_.front()->awaited; }
+  std::timed_mutex mutex_;
   std::condition_variable_any changed_;
   std::vector<std::unique_ptr<CapturedFrame>> free_;
   std::deque<std::unique_ptr<CapturedFrame>> ready_;

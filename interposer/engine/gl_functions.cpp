@@ -9,6 +9,15 @@ bool GlFunctions::load(const Lookup& look_up) {
     return function != nullptr;
   };
   fill(ReadBuffer, "glReadBuffer");
+  fill(GenBuffers, "glGenBuffers");
+  fill(DeleteBuffers, "glDeleteBuffers");
+  fill(BufferData, "glBufferData");
+  fill(MapBufferRange, "glMapBufferRange");
+  fill(UnmapBuffer, "glUnmapBuffer");
+  fill(FenceSync, "glFenceSync");
+  fill(ClientWaitSync, "glClientWaitSync");
+  fill(DeleteSync, "glDeleteSync");
+  fill(Flush, "glFlush");
   fill(BindBuffer, "glBindBuffer");
   fill(BindFramebuffer, "glBindFramebuffer");
   fill(CheckFramebufferStatus, "glCheckFramebufferStatus");

@@ -3,6 +3,8 @@
 
 #include <GL/gl.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 
 namespace tilepress {
@@ -16,6 +18,15 @@ struct GlFunctions {
   void (*ReadPixels)(GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void*) = nullptr;
 
   void (*ReadBuffer)(GLenum) = nullptr;
+  void (*GenBuffers)(GLsizei, GLuint*) = nullptr;
+  void (*DeleteBuffers)(GLsizei, const GLuint*) = nullptr;
+  void (*BufferData)(GLenum, ptrdiff_t, const void*, GLenum) = nullptr;
+  void* (*MapBufferRange)(GLenum, ptrdiff_t, ptrdiff_t, GLbitfield) = nullptr;
+  GLboolean (*UnmapBuffer)(GLenum) = nullptr;
+  void* (*FenceSync)(GLenum, GLbitfield) = nullptr;
+  GLenum (*ClientWaitSync)(void*, GLbitfield, uint64_t) = nullptr;
+  void (*DeleteSync)(void*) = nullptr;
+  void (*Flush)() = nullptr;
   void (*BindBuffer)(GLenum, GLuint) = nullptr;
   void (*BindFramebuffer)(GLenum, GLuint) = nullptr;
   GLenum (*CheckFramebufferStatus)(GLenum) = nullptr;

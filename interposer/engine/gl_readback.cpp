@@ -4,6 +4,8 @@
 
 #include <GL/glext.h>
 
+#include <utility>
+
 #include "interposer/engine/monotonic_clock.h"
 
 namespace tilepress {
@@ -57,27 +59,41 @@ std::optional<PixelFormat> format_of(const ChannelBits& bits) {
   return std::nullopt;
 }
 
-bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape, CapturedFrame& frame, GLenum& error) {
+bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
+                      const std::shared_ptr<PixelBuffers>& buffers, CapturedFrame& frame, GLenum& error) {
   error = 0;
+  frame.buffered_ns = 0;
   const Transfer transfer = transfer_of(*shape.format, gl);
   const size_t pitch_bytes = size_t{shape.width} * transfer.pixel_bytes;
   std::byte* pixels = frame.reserve(pitch_bytes * shape.height);
   if (pixels == nullptr) return false;
-  // Drivers have crashed on a read with READ_BUFFER = NONE; a fresh context on a window has GL_BACK, on
-  // others maybe not.
-  if (gl.ReadBuffer != nullptr) gl.ReadBuffer(GL_BACK);
-  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  const uint64_t begin_ns = now_ns();
-  gl.ReadPixels(0, 0, static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height), transfer.format,
-                transfer.type, pixels);
-  frame.read_ns = now_ns() - begin_ns;
-  for (GLenum found = gl.GetError(); found != GL_NO_ERROR; found = gl.GetError()) error = found;
   frame.view.top_row = pixels + pitch_bytes * (shape.height - 1);
   frame.view.pitch_bytes = -static_cast<ptrdiff_t>(pitch_bytes);
   frame.view.width = shape.width;
   frame.view.height = shape.height;
   frame.view.format = *shape.format;
   frame.view.order = transfer.order;
+  // Drivers have crashed on a read with READ_BUFFER = NONE; a fresh context on a window has GL_BACK, on
+  // others maybe not.
+  if (gl.ReadBuffer != nullptr) gl.ReadBuffer(GL_BACK);
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  const PixelBuffers::Area area{static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height),
+                                transfer.format, transfer.type, pitch_bytes * shape.height};
+  std::unique_ptr<LateRead> late;
+  if (frame.way != ReadWay::kSync && buffers != nullptr && !buffers->refused())
+    late = buffers->begin(area, frame.buffered_ns);
+  if (late == nullptr && frame.way == ReadWay::kAsync) frame.way = ReadWay::kSync;
+  if (frame.way == ReadWay::kAsync) {
+    frame.late = std::move(late);
+    frame.read_ns = std::exchange(frame.buffered_ns, 0);
+    return true;
+  }
+  const uint64_t begin_ns = now_ns();
+  gl.ReadPixels(0, 0, area.width, area.height, area.format, area.type, pixels);
+  frame.read_ns = now_ns() - begin_ns;
+  for (GLenum found = gl.GetError(); found != GL_NO_ERROR; found = gl.GetError()) error = found;
+  // What comes out of the buffer must be what comes out of the call, or none is used.
+  if (late == nullptr || !buffers->equals(*late, pixels)) frame.buffered_ns = 0;
   return error == 0;
 }
 

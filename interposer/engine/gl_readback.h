@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "interposer/engine/captured_frame.h"
 #include "interposer/engine/gl_functions.h"
+#include "interposer/engine/pixel_buffers.h"
 #include "interposer/engine/surface_registry.h"
 
 namespace tilepress {
@@ -20,8 +22,11 @@ struct ChannelBits {
 /// The pixel format whose memory layout holds exactly these channels; empty if there is none.
 std::optional<PixelFormat> format_of(const ChannelBits& bits);
 
-/// Reads the whole back buffer into `frame` and sets its view. The current context is private to the shim:
-/// its state and its error flags are ours. False, with the GL error or 0 in `error`, if nothing was read.
-bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape, CapturedFrame& frame, GLenum& error);
+/// Reads the whole back buffer into `frame`, or starts to, in the way that `frame.way` asks for, and sets its
+/// view. Where pixel buffers fail, or `buffers` is null, the way is kSync. The current context is private to
+/// the shim: its state and its error flags are ours. False, with the GL error or 0 in `error`, if nothing was
+/// read.
+bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
+                      const std::shared_ptr<PixelBuffers>& buffers, CapturedFrame& frame, GLenum& error);
 
 }  // namespace tilepress

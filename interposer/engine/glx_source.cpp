@@ -6,12 +6,13 @@
 #include "interposer/engine/context_pool.h"
 #include "interposer/engine/context_version.h"
 #include "interposer/engine/display_ends.h"
+#include "interposer/engine/display_locks.h"
 #include "interposer/engine/drawable_size.h"
-
 #include "interposer/engine/gl_readback.h"
 #include "interposer/engine/in_context_readback.h"
 #include "interposer/engine/library_symbols.h"
 #include "interposer/engine/monotonic_clock.h"
+#include "interposer/engine/pixel_buffer_groups.h"
 #include "interposer/engine/present_source.h"
 
 namespace tilepress {
@@ -59,10 +60,13 @@ struct GlxFunctions {
 
 class GlxSource final : public PresentSource {
  public:
-  GlxSource(const GlxFunctions& glx, const GlFunctions& gl, DrawableSize size)
-      : glx_(glx), gl_(gl), size_(std::move(size)) {
-    DisplayEnds::instance().add(&pool_, &configs_);
-    DisplayEnds::instance().add(&sharing_, &configs_);
+  GlxSource(const GlxFunctions& glx, const GlFunctions& gl, DrawableSize size, LateReader& reader)
+      : glx_(glx), gl_(gl), size_(std::move(size)), reader_(reader) {
+    DisplayEnds::instance().add(&pool_, &configs_, [this](const void* display, const auto& contexts) {
+      if (!groups_.of_display(display).empty()) reader_.let_go(display);
+      for (const void* own : contexts) groups_.take(own);
+    });
+    DisplayEnds::instance().add(&sharing_, &configs_, nullptr);
   }
 
   bool describe(const TilepressPresent& present, WindowKey& key, SurfaceShape& shape,
@@ -132,15 +136,20 @@ class GlxSource final : public PresentSource {
         break;
     }
     const bool double_buffered = described() && described()->double_buffered;
+    frame.way = ReadWay::kInContext;
     if (read_in_program_context(gl_, shape, double_buffered ? GL_BACK : GL_FRONT, frame)) return true;
     if (reason.empty()) reason = "the program's context cannot be read";
     return false;
   }
 
   void release(void* display) override {
+    if (!groups_.of_display(display).empty()) reader_.let_go(display);
     for (ContextPool* pool : {&pool_, &sharing_})
-      for (void* own : pool->take_all(display))
+      for (void* own : pool->take_all(display)) {
+        const std::shared_ptr<PixelBuffers> buffers = groups_.take(own);
+        if (buffers != nullptr && buffers->twin() != nullptr) buffers->twin()->destroy();
         glx_.DestroyContext(static_cast<Display*>(display), static_cast<GLXContext>(own));
+      }
   }
 
   GlStrings strings() const override {
@@ -181,7 +190,9 @@ class GlxSource final : public PresentSource {
         own != nullptr && glx_.MakeContextCurrent(display, present.surface, present.surface, own);
     const uint64_t bound_ns = now_ns();
     GLenum error = 0;
-    const bool taken = bound && read_back_buffer(gl_, shape, frame, error);
+    const bool taken =
+        bound && read_back_buffer(gl_, shape, buffers_of(display, config, own, frame.way), frame, error);
+    if (taken && frame.late != nullptr) reader_.post(frame);  // before our context may go
     const uint64_t taken_ns = now_ns();
     if (bound && !glx_.MakeContextCurrent(display, draw, read, context)) {
       reason = "the program's context could not be made current again";
@@ -191,6 +202,21 @@ class GlxSource final : public PresentSource {
     if (own != nullptr) pool_.give(key, own);
     if (!taken) reason = bound ? "glReadPixels failed" : "the private context cannot be made current";
     return taken ? Attempt::kRead : Attempt::kNotBound;
+  }
+
+  /// The pixel buffers of our context `own`, which is current, where they are wanted and can be had.
+  std::shared_ptr<PixelBuffers> buffers_of(Display* display, GLXFBConfig config, GLXContext own,
+                                           ReadWay way) {
+    return groups_.of_context(own, way, gl_, display, reader_, [&](TwinContext& twin) {
+      // Of OpenGL 3.0 on a context can be current without a drawable, which asks the X server nothing.
+      if (!has_locks(display) || !glx_.IsDirect(display, own)) return false;
+      const GLXContext second = glx_.CreateNewContext(display, config, GLX_RGBA_TYPE, own, True);
+      if (second == nullptr) return false;
+      twin.enter = [=, this] { return glx_.MakeContextCurrent(display, None, None, second) != False; };
+      twin.leave = [=, this] { glx_.MakeContextCurrent(display, None, None, nullptr); };
+      twin.destroy = [=, this] { glx_.DestroyContext(display, second); };
+      return true;
+    });
   }
 
   void watch_end_of(Display* display) const {
@@ -258,14 +284,17 @@ class GlxSource final : public PresentSource {
   const GlxFunctions glx_;
   const GlFunctions gl_;
   const DrawableSize size_;
-  ContextPool pool_;     ///< by config
-  ContextPool sharing_;  ///< by the program's context
+  ContextPool pool_;          ///< by config
+  ContextPool sharing_;       ///< by the program's context
+  PixelBufferGroups groups_;  ///< of the contexts in pool_
+  LateReader& reader_;
   ConfigCache configs_;
 };
 
 }  // namespace
 
-std::unique_ptr<PresentSource> make_glx_source(const TilepressHost& host, const TilepressPresent& present) {
+std::unique_ptr<PresentSource> make_glx_source(const TilepressHost& host, const TilepressPresent& present,
+                                               LateReader& reader) {
   const LibrarySymbols library(host, present);
   GlxFunctions glx;
   GlFunctions gl;
@@ -276,7 +305,7 @@ std::unique_ptr<PresentSource> make_glx_source(const TilepressHost& host, const 
       return found;
     return library.find(name);
   });
-  return loaded ? std::make_unique<GlxSource>(glx, gl, DrawableSize(library)) : nullptr;
+  return loaded ? std::make_unique<GlxSource>(glx, gl, DrawableSize(library), reader) : nullptr;
 }
 
 }  // namespace tilepress

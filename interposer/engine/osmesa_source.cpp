@@ -44,6 +44,7 @@ class OsmesaSource final : public PresentSource {
 
   bool read(const TilepressPresent&, const SurfaceShape& shape, CapturedFrame& frame,
             std::string& reason) override {
+    frame.way = ReadWay::kInContext;
     if (read_in_program_context(gl_, shape, GL_FRONT, frame)) return true;
     reason = "the program's context cannot be read";
     return false;

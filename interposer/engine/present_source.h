@@ -8,6 +8,7 @@
 
 #include "interposer/engine/captured_frame.h"
 #include "interposer/engine/gl_functions.h"
+#include "interposer/engine/late_reader.h"
 #include "interposer/engine/surface_registry.h"
 #include "interposer/engine_contract.h"
 
@@ -26,7 +27,8 @@ class PresentSource {
   /// the calling thread could read.
   virtual bool describe(const TilepressPresent& present, WindowKey& key, SurfaceShape& shape,
                         std::string& reason) = 0;
-  /// Reads the back buffer in a private context and makes the program's context current again.
+  /// Reads the back buffer in a private context and makes the program's context current again. `frame.way`
+  /// says how, and afterwards how it was.
   virtual bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
                     std::string& reason) = 0;
   /// Fills in what is current on the calling thread: display and surface. False if no context of this API is.
@@ -43,14 +45,18 @@ class PresentSource {
   virtual void put_back_error(uint32_t) {}
   /// Destroys the contexts kept for `display`, which the program is about to tear down. The API must match.
   virtual void release(void* display) = 0;
+  /// The program is about to destroy a surface of `display`: pixel buffers that are not in use go.
+  virtual void trim(void*) {}
   /// Of the program's own context, which is current.
   virtual GlStrings strings() const = 0;
   virtual const char* api() const = 0;
 };
 
 /// Null if the library that holds `present.real` lacks a function the readback needs.
-std::unique_ptr<PresentSource> make_egl_source(const TilepressHost& host, const TilepressPresent& present);
-std::unique_ptr<PresentSource> make_glx_source(const TilepressHost& host, const TilepressPresent& present);
+std::unique_ptr<PresentSource> make_egl_source(const TilepressHost& host, const TilepressPresent& present,
+                                               LateReader& reader);
+std::unique_ptr<PresentSource> make_glx_source(const TilepressHost& host, const TilepressPresent& present,
+                                               LateReader& reader);
 std::unique_ptr<PresentSource> make_osmesa_source(const TilepressHost& host, const TilepressPresent& present);
 
 }  // namespace tilepress

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <utility>
 
 #include "tilepress/block.h"
 
@@ -130,6 +131,27 @@ bool set_on_full(RunOptions& options, std::string_view& value, std::string& reas
   return true;
 }
 
+constexpr std::pair<std::string_view, Readback> kReadbacks[] = {{"auto", Readback::kAuto},
+                                                                {"sync", Readback::kSync},
+                                                                {"async", Readback::kAsync},
+                                                                {"in-context", Readback::kInContext}};
+
+bool set_readback(RunOptions& options, std::string_view& value, std::string& reason) {
+  for (const auto& [name, readback] : kReadbacks) {
+    if (value != name) continue;
+    options.readback = readback;
+    return true;
+  }
+  reason = "not one of auto, sync, async, in-context";
+  return false;
+}
+
+std::string readback_name(Readback readback) {
+  for (const auto& [name, known] : kReadbacks)
+    if (known == readback) return std::string(name);
+  return "";
+}
+
 struct TriggerName {
   const char* name;
   Trigger trigger;
@@ -196,7 +218,10 @@ struct OptionEntry {
   Setter set;
 };
 
+// What is wrong with the others has to be written somewhere: the log comes first.
 constexpr OptionEntry kOptions[] = {
+    {"log-level", "TILEPRESS_LOG_LEVEL", set_log_level},
+    {"log-file", "TILEPRESS_LOG_FILE", set_log_file},
     {"output", "TILEPRESS_OUT", set_output},
     {"scheme", "TILEPRESS_SCHEME", set_schemes},
     {"tile", "TILEPRESS_TILE", set_tile},
@@ -207,10 +232,9 @@ constexpr OptionEntry kOptions[] = {
     {"heatmaps", "TILEPRESS_HEATMAPS", set_heatmaps},
     {"dump-frames", "TILEPRESS_DUMP_FRAMES", set_dump_frames},
     {"on-full", "TILEPRESS_ON_FULL", set_on_full},
+    {"readback", "TILEPRESS_READBACK", set_readback},
     {"trigger", "TILEPRESS_TRIGGER", set_trigger},
     {"targets", "TILEPRESS_TARGETS", set_targets},
-    {"log-level", "TILEPRESS_LOG_LEVEL", set_log_level},
-    {"log-file", "TILEPRESS_LOG_FILE", set_log_file},
 };
 
 std::string scheme_list(const std::vector<SchemeSpec>& schemes) {
@@ -259,6 +283,7 @@ std::map<std::string, std::string> to_environment(const RunOptions& options) {
       {"TILEPRESS_HEATMAPS", picture_rule(options.heatmaps_every)},
       {"TILEPRESS_DUMP_FRAMES", picture_rule(options.dump_frames_every)},
       {"TILEPRESS_ON_FULL", options.on_full == OnFull::kBlock ? "block" : "drop"},
+      {"TILEPRESS_READBACK", readback_name(options.readback)},
       {"TILEPRESS_TRIGGER", trigger_list(options.triggers)},
       {"TILEPRESS_TARGETS", options.all_targets ? "all" : ""},
       {"TILEPRESS_LOG_LEVEL", options.log_level},

@@ -186,7 +186,7 @@ class Captures(CliCase):
         (name,) = glob.glob(self.path("out/glmark2-es2-*/presents.csv"))
         rows = read_rows(name)
         self.assertEqual(len(rows), 12)
-        self.assertEqual(list(rows[0])[-4:], ["bind_ns", "hand_off_ns", "interval_ns", "cause"])
+        self.assertEqual(list(rows[0])[-5:], ["bind_ns", "hand_off_ns", "interval_ns", "cause", "readback"])
         self.assertEqual(rows[0]["interval_ns"], "0")
         for row in rows[1:]:
             # All of it lies between this present and the one before, except what follows the call.

@@ -35,6 +35,10 @@ class FrameSet {
 
 enum class OnFull : uint8_t { kBlock, kDrop };
 
+/// How the shim reads what is presented: as a probe over a window's first frames decides, at once, through
+/// pixel buffers, or in the program's own context.
+enum class Readback : uint8_t { kAuto, kSync, kAsync, kInContext };
+
 /// GL calls that end a frame of a program that does not present it. Bits of RunOptions::triggers.
 enum Trigger : uint32_t { kTriggerFinish = 1, kTriggerFlush = 2, kTriggerReadPixels = 4 };
 
@@ -47,6 +51,7 @@ struct RunOptions {
   uint64_t heatmaps_every = 0;     ///< a heat map of every n-th frame number; 0 = none
   uint64_t dump_frames_every = 0;  ///< the pixels of every n-th frame number; 0 = none
   OnFull on_full = OnFull::kBlock;
+  Readback readback = Readback::kAuto;
   uint32_t triggers = 0;     ///< Trigger bits
   bool all_targets = false;  ///< framebuffer objects too, not only what is presented
   std::string output;        ///< -o DIR; absolute where it goes into an environment
@@ -60,9 +65,9 @@ struct RunOptions {
 std::string trigger_list(uint32_t triggers);
 
 /// Sets one option by its long name without dashes ("scheme", "tile", "burst", "frames", "every", "verify",
-/// "heatmaps", "dump-frames", "on-full", "trigger" (a list with commas), "targets", "log-level", "log-file",
-/// "output"). "scheme" takes a space-separated list and replaces the schemes. Returns false and one line in
-/// `error` for an unknown name or a value out of range.
+/// "heatmaps", "dump-frames", "on-full", "readback", "trigger" (a list with commas), "targets", "log-level",
+/// "log-file", "output"). "scheme" takes a space-separated list and replaces the schemes. Returns false and
+/// one line in `error` for an unknown name or a value out of range.
 bool set_run_option(RunOptions& options, std::string_view name, std::string_view value, std::string& error);
 
 /// The environment that makes the shim run with these options: TILEPRESS_OUT, TILEPRESS_SCHEME,

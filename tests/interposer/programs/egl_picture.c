@@ -1,7 +1,7 @@
 /* egl_picture ROAD FRAMES WIDTH HEIGHT [END]: presents the known picture from a pbuffer, without a window
    system. ROAD: how EGL is reached: link (only in the build that links it), local, deepbind, getproc, dlvsym.
    END: how the program ends: return (default), exit, _exit, _Exit, quick_exit, abort, kill, term, segv
-   (signals), fork (a child presents too), vfork (a child is executed, then as many frames again), dlclose (of
+   (signals), pause (presents nothing any more), fork (a child presents too), vfork (a child is executed, then as many frames again), dlclose (of
    the GL library, then as many frames again). Prints the error that eglGetError gives after the last swap. */
 #define _GNU_SOURCE
 #include <EGL/egl.h>
@@ -114,6 +114,7 @@ int main(int argc, char** argv) {
   if (strcmp(end, "_exit") == 0) _exit(7);
   if (strcmp(end, "_Exit") == 0) _Exit(7);
   if (strcmp(end, "quick_exit") == 0) quick_exit(7);
+  while (strcmp(end, "pause") == 0) pause();
   if (strcmp(end, "kill") == 0) kill(getpid(), SIGKILL);
   if (strcmp(end, "abort") == 0) abort();
   if (strcmp(end, "term") == 0) raise(SIGTERM);
