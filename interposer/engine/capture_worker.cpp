@@ -2,9 +2,7 @@
 #include "interposer/engine/capture_worker.h"
 
 #include <fcntl.h>
-#include <pthread.h>
 #include <sched.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -54,16 +52,7 @@ CaptureWorker::CaptureWorker(const RunOptions& options, const RunInfo& info, Cap
     : options_(options), info_(info), counts_(counts), log_(log), queue_(kQueueDepth) {}
 
 bool CaptureWorker::start() {
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  try {
-    thread_ = std::thread([this] { run(); });
-    pthread_setname_np(thread_.native_handle(), "tilepress");
-  } catch (...) {
-    alive_ = false;
-  }
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  alive_ = thread_.start("tilepress", [this] { run(); });
   return alive_;
 }
 
@@ -207,7 +196,7 @@ void CaptureWorker::finish() {
   // Bounded at every step: the caller may be a signal handler on top of any thread of the program.
   if (!queue_.close()) return;
   if (finish_mutex_.try_lock()) {
-    if (thread_.joinable() && thread_.get_id() != std::this_thread::get_id()) thread_.join();
+    if (!thread_.is_current()) thread_.join();
     finish_mutex_.unlock();
   }
 }

@@ -5,9 +5,9 @@
 #include <map>
 #include <mutex>
 #include <string>
-#include <thread>
 
 #include "interposer/engine/frame_queue.h"
+#include "interposer/engine/own_thread.h"
 #include "interposer/engine/shim_log.h"
 #include "interposer/engine/worker_pace.h"
 #include "interposer/engine/yielding_thread.h"
@@ -78,7 +78,7 @@ class CaptureWorker {
   FrameStatistics statistics_;
   WorkerPace pace_;
   YieldingThread yielding_;
-  std::thread thread_;
+  OwnThread thread_;
   std::mutex finish_mutex_;
   std::atomic<bool> alive_{true};
 };

@@ -2,13 +2,10 @@
 // end of the process, be gone.
 #include "interposer/engine/late_reader.h"
 
-#include <pthread.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
-#include <thread>
 #include <utility>
 
 #include "interposer/engine/own_calls.h"
@@ -39,19 +36,8 @@ void LateReader::at_exit() {
 bool LateReader::start() {
   const std::unique_lock lock(mutex_, kPatience);
   if (!lock.owns_lock()) return false;
-  if (started_) return true;
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  try {
-    std::thread thread([this] { run(); });
-    pthread_setname_np(thread.native_handle(), "tilepress-read");
-    thread.detach();
-    started_ = true;
-  } catch (...) {
-  }
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  if (!started_) return false;
+  if (thread_.started()) return true;
+  if (!thread_.start("tilepress-read", [this] { run(); })) return false;
   static const bool registered = std::atexit(at_exit) == 0;
   running = this;
   return registered;
@@ -60,7 +46,7 @@ bool LateReader::start() {
 bool LateReader::append(Job job, uint64_t& number) {
   {
     const std::unique_lock lock(mutex_, kPatience);
-    if (!lock.owns_lock() || !started_) return false;
+    if (!lock.owns_lock() || !thread_.started()) return false;
     jobs_.push_back(std::move(job));
     number = ++posted_;
   }
@@ -99,7 +85,7 @@ bool LateReader::let_go(const void* display) {
   if (!is_of_this_process()) return true;
   {
     const std::unique_lock lock(mutex_, kPatience);
-    if (lock.owns_lock() && !started_) return true;
+    if (lock.owns_lock() && !thread_.started()) return true;
   }
   uint64_t number = 0;
   return append({nullptr, display, nullptr}, number) && wait_for(number);

@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "interposer/engine/captured_frame.h"
+#include "interposer/engine/own_thread.h"
 #include "interposer/engine/pixel_buffers.h"
 
 namespace tilepress {
@@ -56,7 +57,7 @@ class LateReader {
   std::condition_variable_any changed_;
   std::deque<Job> jobs_;
   uint64_t posted_ = 0, done_ = 0;
-  bool started_ = false;
+  OwnThread thread_;  ///< has no end
   std::atomic<bool> accepts_{true};
   std::shared_ptr<PixelBuffers> current_;  ///< the thread's own: whose twin is current
 };

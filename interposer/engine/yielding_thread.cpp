@@ -1,11 +1,9 @@
 // Yielding thread: a lock, a condition, a thread of nice 19.
 #include "interposer/engine/yielding_thread.h"
 
-#include <pthread.h>
 #include <sys/resource.h>
 #include <time.h>
 
-#include <system_error>
 #include <utility>
 
 #include "interposer/engine/monotonic_clock.h"
@@ -24,7 +22,7 @@ uint64_t thread_cpu_ns() {
 }  // namespace
 
 void YieldingThread::end() {
-  if (!thread_.joinable()) return;
+  if (!thread_.started()) return;
   {
     const std::lock_guard lock(mutex_);
     ended_ = true;
@@ -34,14 +32,9 @@ void YieldingThread::end() {
 }
 
 YieldingThread::Turn YieldingThread::run(const std::function<void()>& work) {
-  if (!thread_.joinable()) {
-    try {
-      thread_ = std::thread([this] { serve(); });
-      pthread_setname_np(thread_.native_handle(), "tilepress-calm");
-    } catch (const std::system_error&) {
-      work();
-      return {};
-    }
+  if (!thread_.started() && !thread_.start("tilepress-calm", [this] { serve(); })) {
+    work();
+    return {};
   }
   std::unique_lock lock(mutex_);
   work_ = &work;

@@ -6,7 +6,8 @@
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <thread>
+
+#include "interposer/engine/own_thread.h"
 
 namespace tilepress {
 
@@ -18,8 +19,8 @@ class YieldingThread {
     uint64_t wall_ns = 0, cpu_ns = 0;
   };
   ~YieldingThread() { end(); }
-  /// Has `work` done and waits for it; what it throws is thrown here. Starts the thread, with the caller's
-  /// signal mask, at first use; works itself where the system gives no thread.
+  /// Has `work` done and waits for it; what it throws is thrown here. Starts the thread, with all
+  /// signals blocked, at first use; works itself where the system gives no thread.
   Turn run(const std::function<void()>& work);
   void end();
 
@@ -32,7 +33,7 @@ class YieldingThread {
   bool ended_ = false;
   std::exception_ptr thrown_;
   Turn turn_;
-  std::thread thread_;
+  OwnThread thread_;
 };
 
 }  // namespace tilepress
