@@ -67,6 +67,9 @@ struct Kernels {
   /// out[79], may be overwritten. Bit i of the result: out[i] equals the one before it, out[0] `before`.
   uint64_t (*compact)(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out);
 
+  /// Bit i of the result: of 64 pixels, number i differs from the one before it; bit 0 is set.
+  uint64_t (*run_begins)(const uint32_t* pixels);
+
   /// Bits of the Golomb-Rice codes of four planes with their group headers, without the first pixels.
   /// samples: rows of 40 values, row -1 to 7; see ras_samples.h.
   uint32_t (*ras_code_bits)(const int16_t* samples);

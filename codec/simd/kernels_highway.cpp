@@ -209,6 +209,26 @@ uint64_t Compact(const uint32_t* HWY_RESTRICT pixels, uint64_t mask, uint32_t be
   return count == 64 ? alike : alike & ((uint64_t{1} << count) - 1);
 }
 
+uint64_t RunBegins(const uint32_t* HWY_RESTRICT pixels) {
+  const Words d;
+  uint64_t begins = 0;
+  for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
+    const auto now = hn::LoadU(d, pixels + i);
+    uint8_t bits[8] = {};
+    uint64_t lanes;
+    if (i > 0) {
+      hn::StoreMaskBits(d, hn::Ne(now, hn::LoadU(d, pixels + i - 1)), bits);
+      __builtin_memcpy(&lanes, bits, 8);
+    } else {  // from the comparison with the pixels behind
+      hn::StoreMaskBits(d, hn::Ne(now, hn::LoadU(d, pixels + 1)), bits);
+      __builtin_memcpy(&lanes, bits, 8);
+      lanes = (lanes << 1 | 1) & ((uint64_t{1} << hn::Lanes(d)) - 1);
+    }
+    begins |= lanes << i;
+  }
+  return begins;
+}
+
 using Samples = hn::CappedTag<int16_t, 32>;  // a row of eight pixels of four planes
 
 template <class V>
@@ -306,8 +326,9 @@ void WidenBytes(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, int16_t*
 }
 
 const Kernels& Set(const char* name) {
-  static const Kernels kSet = {name, LoadTraversal, IsSolid, Find,    Split,       FindFew,    WidthSum,
-                               Pack, CountBelow,    Members, Compact, RasCodeBits, ReplaceRow, WidenBytes};
+  static const Kernels kSet = {name,    LoadTraversal, IsSolid,     Find,       Split,
+                               FindFew, WidthSum,      Pack,        CountBelow, Members,
+                               Compact, RunBegins,     RasCodeBits, ReplaceRow, WidenBytes};
   return kSet;
 }
 

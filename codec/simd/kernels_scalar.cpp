@@ -110,6 +110,12 @@ uint64_t compact(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_
   return alike;
 }
 
+uint64_t run_begins(const uint32_t* pixels) {
+  uint64_t begins = 1;
+  for (uint32_t i = 1; i < kLanes; ++i) begins |= uint64_t{pixels[i] != pixels[i - 1]} << i;
+  return begins;
+}
+
 int32_t median_edge(int32_t a, int32_t b, int32_t c) {
   if (c >= std::max(a, b)) return std::min(a, b);
   if (c <= std::min(a, b)) return std::max(a, b);
@@ -167,9 +173,9 @@ void widen_bytes(const uint32_t* top_left, uint32_t stride, int16_t* samples) {
 }  // namespace
 
 const Kernels& scalar_kernels() {
-  static const Kernels kScalar = {"scalar", load_traversal, is_solid,    find,        split,
-                                  find_few, width_sum,      pack,        count_below, members,
-                                  compact,  ras_code_bits,  replace_row, widen_bytes};
+  static const Kernels kScalar = {"scalar", load_traversal, is_solid,      find,        split,
+                                  find_few, width_sum,      pack,          count_below, members,
+                                  compact,  run_begins,     ras_code_bits, replace_row, widen_bytes};
   return kScalar;
 }
 

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
+
+#include "simd/kernels.h"
 
 namespace tilepress {
 namespace {
@@ -35,6 +38,41 @@ void for_each_pixel(const PixelPlane& frame, const Visit& visit) {
   }
 }
 
+/// visit(colour, length) for each run of equal pixels in pieces of a row.
+template <typename Visit>
+void for_each_run(const PixelPlane& frame, uint32_t y, const Visit& visit) {
+  const Kernels& kernel = kernels();
+  const uint32_t* row = frame.row(y);
+  uint32_t last[kLanes];
+  for (uint32_t x = 0; x < frame.width(); x += kLanes) {
+    const uint32_t inside = std::min(kLanes, frame.width() - x);
+    const uint32_t* pixels = row + x;
+    if (inside < kLanes) {
+      std::fill(std::copy_n(pixels, inside, last), last + kLanes, pixels[inside - 1]);
+      pixels = last;
+    }
+    uint64_t begins = kernel.run_begins(pixels);
+    while (true) {
+      const auto begin = static_cast<uint32_t>(std::countr_zero(begins));
+      begins &= begins - 1;
+      if (begins == 0) {
+        visit(pixels[begin], inside - begin);
+        break;
+      }
+      visit(pixels[begin], static_cast<uint32_t>(std::countr_zero(begins)) - begin);
+    }
+  }
+}
+
+/// Whether it pays to look for runs, from a look at some rows.
+bool has_runs(const PixelPlane& frame) {
+  constexpr uint32_t kEvery = 64;
+  size_t runs = 0, pixels = 0;
+  for (uint32_t y = 0; y < frame.height(); y += kEvery, pixels += frame.width())
+    for_each_run(frame, y, [&runs](uint32_t, uint32_t) { ++runs; });
+  return runs * 4 < pixels * 3;
+}
+
 }  // namespace
 
 struct ColorDistribution::Tables {
@@ -45,49 +83,106 @@ struct ColorDistribution::Tables {
   /// Sizes of the groups, then where the next pixel of each goes.
   std::vector<uint32_t> next = std::vector<uint32_t>(kGroups);
   std::vector<Entry> entries = std::vector<Entry>(kValues);  ///< of one group; all zero between groups
-  /// How often a count was raised from this one, in four copies: see for_each_pixel.
-  std::array<std::array<uint32_t, kExact>, 4> raised;
-  std::vector<uint16_t> large;  ///< values counted kExact times and more in one group
+  /// By count, in four copies, see for_each_pixel: how often pixel by pixel a count was raised from this one,
+  /// and how many colours had it that were counted run by run; of no meaning for 0, and for all from kExact -
+  /// 1 on together.
+  std::array<std::array<uint32_t, kExact>, 4> raised{}, colors{};
+  std::vector<uint16_t> large;  ///< values counted kExact - 1 times and more in one group of pixels
 
-  uint64_t raised_from(uint32_t count) const {
-    return uint64_t{raised[0][count]} + raised[1][count] + raised[2][count] + raised[3][count];
+  /// What a group counts: its values, and how many pixels each stands for.
+  struct Span {
+    const uint16_t* values;
+    const uint8_t* weights;  ///< null: one pixel each
+    size_t size;
+  };
+  template <typename Visit>
+  static void for_each(const Span& span, const Visit& visit) {
+    if (span.weights == nullptr)
+      for (size_t i = 0; i < span.size; ++i) visit(span.values[i], 1);
+    else
+      for (size_t i = 0; i < span.size; ++i) visit(span.values[i], span.weights[i]);
   }
-  uint64_t count_group(std::span<const uint16_t> now, std::span<const uint16_t> before);
-  void clear_group(std::span<const uint16_t> now, std::span<const uint16_t> before);
+  static uint64_t sum(const std::array<std::array<uint32_t, kExact>, 4>& copies, uint32_t count) {
+    return uint64_t{copies[0][count]} + copies[1][count] + copies[2][count] + copies[3][count];
+  }
+  uint64_t count_group(const Span& now, const Span& before);
+  uint64_t count_pixels(const Span& now);
+  uint64_t count_runs(const Span& now);
+  /// Adds the larger counts to `profile`.
+  void clear_group(const Span& now, const Span& before, CountProfile& profile);
+  void take_profile(CountProfile& profile);
 };
 
-ColorDistribution::Tables& ColorDistribution::tables_of_thread() {
+// Not inline: the address of what is a thread's own would be found anew at every use.
+[[gnu::noinline]] ColorDistribution::Tables& ColorDistribution::tables_of_thread() {
   thread_local Tables tables;
   return tables;
 }
 
-uint64_t ColorDistribution::Tables::count_group(std::span<const uint16_t> now,
-                                                std::span<const uint16_t> before) {
+/// Returns how many of the group's pixels find none of their colour in the frame before to pair with.
+uint64_t ColorDistribution::Tables::count_group(const Span& now, const Span& before) {
   Entry* table = entries.data();
-  for (const uint16_t value : before) ++table[value].lead;
+  for_each(before, [table](uint16_t value, int32_t weight) { table[value].lead += weight; });
+  return now.weights == nullptr ? count_pixels(now) : count_runs(now);
+}
+
+uint64_t ColorDistribution::Tables::count_pixels(const Span& now) {
+  Entry* table = entries.data();
   uint64_t gained = 0;
-  for (size_t i = 0; i < now.size(); ++i) {
-    Entry& entry = table[now[i]];
-    gained += entry.lead <= 0;  // the frame before has no pixel of this colour left to pair with
+  for (size_t i = 0; i < now.size; ++i) {
+    Entry& entry = table[now.values[i]];
+    gained += entry.lead <= 0;
     --entry.lead;
     const uint32_t count = entry.count++;
     ++raised[i & 3][std::min(count, kExact - 1)];
-    if (count == kExact - 1) large.push_back(now[i]);
+    if (count == kExact - 2) large.push_back(now.values[i]);
   }
   return gained;
 }
 
-void ColorDistribution::Tables::clear_group(std::span<const uint16_t> now, std::span<const uint16_t> before) {
-  if (now.size() + before.size() > kValues) {
-    std::fill(entries.begin(), entries.end(), Entry{});
-    return;
-  }
-  for (const uint16_t value : now) entries[value] = {};
-  for (const uint16_t value : before) entries[value] = {};
+uint64_t ColorDistribution::Tables::count_runs(const Span& now) {
+  Entry* table = entries.data();
+  uint64_t gained = 0;
+  for_each(now, [table, &gained](uint16_t value, int32_t weight) {
+    Entry& entry = table[value];
+    gained += static_cast<uint32_t>(weight - std::clamp(entry.lead, 0, weight));
+    entry.lead -= weight;
+    entry.count += static_cast<uint32_t>(weight);
+  });
+  return gained;
 }
 
-void ColorDistribution::note_sizes(std::vector<uint32_t>& next, size_t pixels, Grouped& out) {
-  out.values.resize(pixels);
+void ColorDistribution::Tables::clear_group(const Span& now, const Span& before, CountProfile& profile) {
+  Entry* table = entries.data();
+  for (const uint16_t value : large) profile.add(table[value].count);
+  large.clear();
+  uint32_t visited = 0;
+  const auto take = [&](Entry& entry) {
+    const uint32_t count = std::exchange(entry, Entry{}).count;
+    ++colors[visited++ & 3][std::min(count, kExact - 1)];
+    if (count >= kExact - 1) profile.add(count);
+  };
+  const bool few = now.size + before.size <= kValues;
+  if (now.weights != nullptr && few)
+    for (size_t i = 0; i < now.size; ++i) take(table[now.values[i]]);
+  else if (now.weights != nullptr)
+    for (Entry& entry : entries) take(entry);
+  else if (few)
+    for (size_t i = 0; i < now.size; ++i) table[now.values[i]] = {};
+  else
+    std::fill(entries.begin(), entries.end(), Entry{});
+  for (size_t i = 0; few && i < before.size; ++i) table[before.values[i]] = {};
+}
+
+void ColorDistribution::Tables::take_profile(CountProfile& profile) {
+  // As many colours were raised from n as have more than n pixels.
+  for (uint32_t count = 1; count + 1 < kExact; ++count)
+    profile.add_small(count, sum(colors, count) + sum(raised, count - 1) - sum(raised, count));
+  for (auto& copy : raised) copy.fill(0);
+  for (auto& copy : colors) copy.fill(0);
+}
+
+void ColorDistribution::note_sizes(std::vector<uint32_t>& next, Grouped& out) {
   out.sizes.resize(kGroups);
   out.large_sizes.clear();
   uint32_t begin = 0;
@@ -97,27 +192,41 @@ void ColorDistribution::note_sizes(std::vector<uint32_t>& next, size_t pixels, G
     out.sizes[group] = static_cast<uint8_t>(std::min(size, kManyValues));
     if (size >= kManyValues) out.large_sizes.push_back(size);
   }
+  out.values.resize(begin);
 }
 
 void ColorDistribution::distribute(const PixelPlane& frame, std::vector<uint32_t>& table, Grouped& out) {
   std::fill(table.begin(), table.end(), 0u);
-  uint32_t* next = table.data();
-  for_each_pixel(frame, [next](uint32_t color) { ++next[group_of(color)]; });
-  note_sizes(table, size_t{frame.width()} * frame.height(), out);
-  uint16_t* values = out.values.data();
-  for_each_pixel(frame,
-                 [next, values](uint32_t color) { values[next[group_of(color)]++] = value_of(color); });
+  uint32_t* __restrict next = table.data();
+  if (!has_runs(frame)) {
+    for_each_pixel(frame, [next](uint32_t color) { ++next[group_of(color)]; });
+    note_sizes(table, out);
+    out.weights.clear();
+    uint16_t* __restrict values = out.values.data();
+    for_each_pixel(frame,
+                   [next, values](uint32_t color) { values[next[group_of(color)]++] = value_of(color); });
+    return;
+  }
+  for (uint32_t y = 0; y < frame.height(); ++y)
+    for_each_run(frame, y, [next](uint32_t color, uint32_t) { ++next[group_of(color)]; });
+  note_sizes(table, out);
+  out.weights.resize(out.values.size());
+  uint16_t* __restrict values = out.values.data();
+  uint8_t* __restrict weights = out.weights.data();
+  for (uint32_t y = 0; y < frame.height(); ++y)
+    for_each_run(frame, y, [next, values, weights](uint32_t color, uint32_t length) {
+      const uint32_t at = next[group_of(color)]++;
+      values[at] = value_of(color);
+      weights[at] = static_cast<uint8_t>(length);
+    });
 }
 
 void ColorDistribution::load(const ColorHistogram& colors) {
   std::vector<uint32_t>& next = tables_of_thread().next;
   std::fill(next.begin(), next.end(), 0u);
-  size_t pixels = 0;
-  for (const ColorHistogram::Entry& entry : colors.table()) {
-    next[group_of(entry.color)] += entry.count;
-    pixels += entry.count;
-  }
-  note_sizes(next, pixels, last_);
+  for (const ColorHistogram::Entry& entry : colors.table()) next[group_of(entry.color)] += entry.count;
+  note_sizes(next, last_);
+  last_.weights.clear();
   for (const ColorHistogram::Entry& entry : colors.table()) {
     std::fill_n(last_.values.begin() + next[group_of(entry.color)], entry.count, value_of(entry.color));
     next[group_of(entry.color)] += entry.count;
@@ -132,34 +241,27 @@ ColorDistribution::Change ColorDistribution::count_groups(Tables& tables, const 
   struct Cursor {
     const Grouped& frame;
     size_t begin = 0, large = 0;
-    std::span<const uint16_t> take(uint32_t group) {
+    Tables::Span take(uint32_t group) {
       size_t size = frame.sizes[group];
       if (size == kManyValues) size = frame.large_sizes[large++];
-      return {frame.values.data() + std::exchange(begin, begin + size), size};
+      const size_t at = std::exchange(begin, begin + size);
+      return {frame.values.data() + at, frame.weights.empty() ? nullptr : frame.weights.data() + at, size};
     }
   };
   Cursor now_cursor{now}, before_cursor{before != nullptr ? *before : now};
   Change change;
-  for (auto& copy : tables.raised) copy.fill(0);
-  uint64_t large_colors = 0;
   auto held = held_colors.begin();
   for (uint32_t group = 0; group < kGroups; ++group) {
-    const auto values_before = before != nullptr ? before_cursor.take(group) : std::span<const uint16_t>();
+    const auto values_before = before != nullptr ? before_cursor.take(group) : Tables::Span{};
     const auto values = now_cursor.take(group);
-    if (values.empty()) continue;  // what the frame before had here, no colour gains
-    tables.large.clear();
+    if (values.size == 0) continue;  // what the frame before had here, no colour gains
     change.gained += tables.count_group(values, values_before);
-    for (const uint16_t value : tables.large) profile.add(tables.entries[value].count);
-    large_colors += tables.large.size();
     while (held != held_colors.end() && group_of(*held) < group) ++held;
     for (; held != held_colors.end() && group_of(*held) == group; ++held)
       change.held += tables.entries[value_of(*held)].count;
-    tables.clear_group(values, values_before);
+    tables.clear_group(values, values_before, profile);
   }
-  // As many colours were raised from n as have more than n pixels.
-  for (uint32_t count = 1; count < kExact; ++count)
-    profile.add_small(count, tables.raised_from(count - 1) -
-                                 (count + 1 == kExact ? large_colors : tables.raised_from(count)));
+  tables.take_profile(profile);
   if (before == nullptr) change.gained = 0;
   return change;
 }

@@ -12,9 +12,11 @@ namespace tilepress {
 
 /// Pixels are distributed to groups by the upper 16 bits of their word; the lower 16 bits then index a table
 /// of counts directly. No search and hardly a branch depends on the colours, so a frame of noise costs little
-/// more than a frame of shades. The pixels of the last frame are kept by group for the next.
+/// more than a frame of shades. Where neighbours are often alike, a run of them counts like one pixel that
+/// weighs more. The pixels of the last frame are kept by group for the next.
 ///
-/// Memory: 4 bytes a pixel and 64 KiB, and a megabyte that all surfaces of a thread share.
+/// Memory: of the frame and the last one 2 bytes a pixel, or 3 bytes a run, and 64 KiB; and a megabyte that
+/// all surfaces of a thread share.
 class ColorDistribution {
  public:
   struct Change {
@@ -28,17 +30,18 @@ class ColorDistribution {
   Change count(const PixelPlane& frame, bool compare, std::span<uint32_t> held_colors, CountProfile& profile);
 
  private:
-  /// The lower halves of the pixels of a frame, group after group.
+  /// The lower halves of the pixels or runs of a frame, group after group.
   struct Grouped {
     std::vector<uint16_t> values;
-    std::vector<uint8_t> sizes;  ///< by group; kManyValues: in `large_sizes`, in order
+    std::vector<uint8_t> weights;  ///< pixels of a run; empty if each value is of one pixel
+    std::vector<uint8_t> sizes;    ///< by group; kManyValues: in `large_sizes`, in order
     std::vector<uint32_t> large_sizes;
   };
   static constexpr uint32_t kGroups = 65536, kManyValues = 255;
   struct Tables;
   static Tables& tables_of_thread();
   /// From the sizes of the groups in `ends` to their beginnings, noted in `out`.
-  static void note_sizes(std::vector<uint32_t>& ends, size_t pixels, Grouped& out);
+  static void note_sizes(std::vector<uint32_t>& ends, Grouped& out);
   static void distribute(const PixelPlane& frame, std::vector<uint32_t>& ends, Grouped& out);
   static Change count_groups(Tables& tables, const Grouped& now, const Grouped* before,
                              std::span<const uint32_t> held_colors, CountProfile& profile);

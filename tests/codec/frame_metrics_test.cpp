@@ -34,6 +34,16 @@ Picture half_noise(uint64_t seed) {
   return picture;
 }
 
+/// Many colours, of which pixels side by side are often alike.
+Picture runs_of_noise(uint32_t longest_run, uint64_t seed) {
+  patterns::Dice dice(seed);
+  Picture picture{kWidth, kHeight, {}};
+  while (picture.words.size() < size_t{kWidth} * kHeight)
+    picture.words.insert(picture.words.end(), 1 + dice.below(longest_run), dice.below(9000) * 0x9E3779B1u);
+  picture.words.resize(size_t{kWidth} * kHeight);
+  return picture;
+}
+
 std::map<uint32_t, int64_t> counts_of(const Picture& picture) {
   std::map<uint32_t, int64_t> counts;
   for (const uint32_t word : picture.words) ++counts[word];
@@ -77,6 +87,8 @@ TEST(Metrics, AreThoseOfPlainCountsHoweverManyColoursCome) {
       colors_at_random(1090, 5),
       half_noise(6),
       half_noise(7),
+      runs_of_noise(3, 12),
+      runs_of_noise(9, 13),
       colors_at_random(30000, 8),
       patterns::draw(patterns::kNoise, kWidth, kHeight, PixelFormat::kRgba8, 9),
       patterns::draw(patterns::kGradient, kWidth, kHeight, PixelFormat::kRgba8, 10)};

@@ -92,6 +92,7 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
     uint32_t packed[80] = {}, other_packed[80] = {};
     const uint64_t alike = kernels().compact(pixels.data(), mask, pixels[5], packed);
     const auto kept = static_cast<size_t>(std::popcount(mask));
+    const uint64_t begins = kernels().run_begins(pixels.data());
     uint32_t indices[64], largest[64], words[16], widths[16], other_words[16], other_widths[16];
     for (uint32_t i = 0; i < 64; ++i) indices[i] = i % 16 < 4 ? kNotInCcd : dice.below(1u << dice.below(8));
     for (uint32_t i = 0; i < 64; ++i)
@@ -108,6 +109,7 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
       }
       ASSERT_EQ(kernels().compact(pixels.data(), mask, pixels[5], other_packed), alike);
       ASSERT_TRUE(std::equal(packed, packed + kept, other_packed));
+      ASSERT_EQ(kernels().run_begins(pixels.data()), begins);
       kernels().pack(indices, largest, kNotInCcd, other_words, other_widths);
       ASSERT_TRUE(std::equal(widths, widths + 16, other_widths));
       for (uint32_t sub = 0; sub < 16; ++sub)
