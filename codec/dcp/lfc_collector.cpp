@@ -5,12 +5,13 @@
 #include <bit>
 
 #include "dcp/fvc.h"
+#include "simd/bit_count.h"
 #include "simd/kernels.h"
 
 namespace tilepress {
 namespace {
 constexpr uint32_t kBucketsPerEntry = 16;
-constexpr int kFewHits = 24;  ///< so few are counted one by one; of more, all lanes without a branch
+constexpr uint32_t kFewHits = 24;  ///< so few are counted one by one; of more, all lanes without a branch
 }  // namespace
 
 LfcCollector::LfcCollector(uint32_t entries)
@@ -161,8 +162,8 @@ void LfcCollector::see_run(uint32_t color, uint32_t count) {
 bool LfcCollector::take_misses(const uint32_t* pixels, uint64_t misses) {
   std::array<uint32_t, kLanes + 16> colors;
   const uint64_t alike = kernels().compact(pixels, misses, tail_color_, colors.data());
-  if (alike != 0 && tail_count_ + static_cast<uint32_t>(std::popcount(alike)) >= floor_) return false;
-  const auto count = static_cast<uint32_t>(std::popcount(misses));
+  if (alike != 0 && tail_count_ + bit_count(alike) >= floor_) return false;
+  const uint32_t count = bit_count(misses);
   const auto run = static_cast<uint32_t>(std::countl_one(alike << (kLanes - count)));
   tail_count_ = run == count ? tail_count_ + count : run + 1;
   tail_color_ = colors[count - 1];
@@ -175,8 +176,7 @@ bool LfcCollector::see_block(const FewColors& few) {
     places[n] = place_of(few.colors[n]);
     if (places[n] == outside()) return false;
   }
-  for (uint32_t n = 0; n < few.count; ++n)
-    counts_[places[n]] += static_cast<uint32_t>(std::popcount(few.places[n]));
+  for (uint32_t n = 0; n < few.count; ++n) counts_[places[n]] += bit_count(few.places[n]);
   samples_ += kLanes;
   return true;
 }
@@ -194,7 +194,7 @@ void LfcCollector::see_block(const uint32_t* pixels) {
     bool changed = false;
     if (misses != 0 && full() && take_misses(pixels, misses)) {
       uint64_t hits = ~misses & ~uint64_t{0} << from;
-      if (std::popcount(hits) < kFewHits) {
+      if (bit_count(hits) < kFewHits) {
         for (; hits != 0; hits &= hits - 1) {
           const auto lane = static_cast<uint32_t>(std::countr_zero(hits));
           ++counts_[places[lane] + (lane & 3) * copy_stride_];

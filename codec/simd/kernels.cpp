@@ -13,15 +13,12 @@ std::vector<const Kernels*> runnable() {
   return sets;
 }
 
-const Kernels*& chosen() {
-  static const Kernels* set = runnable().front();
-  return set;
-}
-
 }  // namespace
 
-const Kernels& kernels() {
-  return *chosen();
+const Kernels& choose_kernels() {
+  static const Kernels* best = runnable().front();
+  chosen_kernels.store(best, std::memory_order_relaxed);
+  return *best;
 }
 
 std::vector<std::string_view> simd_targets() {
@@ -31,13 +28,13 @@ std::vector<std::string_view> simd_targets() {
 }
 
 std::string_view simd_target() {
-  return chosen()->name;
+  return kernels().name;
 }
 
 bool force_simd_target(std::string_view name) {
   for (const Kernels* set : runnable())
     if (name == set->name) {
-      chosen() = set;
+      chosen_kernels.store(set, std::memory_order_relaxed);
       return true;
     }
   return false;

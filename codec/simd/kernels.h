@@ -1,6 +1,7 @@
 // Kernels: the inner loops of a block, one set per instruction set. The scalar set is the definition.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -84,7 +85,12 @@ struct Kernels {
   void (*widen_bytes)(const uint32_t* top_left, uint32_t stride, int16_t* samples);
 };
 
-/// The set in use.
-const Kernels& kernels();
+/// The set in use; null until it is asked for.
+inline std::atomic<const Kernels*> chosen_kernels = nullptr;
+const Kernels& choose_kernels();
+inline const Kernels& kernels() {
+  const Kernels* chosen = chosen_kernels.load(std::memory_order_relaxed);
+  return chosen != nullptr ? *chosen : choose_kernels();
+}
 
 }  // namespace tilepress

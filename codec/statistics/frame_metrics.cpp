@@ -2,10 +2,10 @@
 #include "statistics/frame_metrics.h"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "dcp/fvc.h"
+#include "simd/bit_count.h"
 
 namespace tilepress {
 namespace {
@@ -60,8 +60,7 @@ void FrameMeter::see_all(const uint32_t* pixels, uint32_t count) {
 }
 
 void FrameMeter::see_block(const FewColors& few) {
-  for (uint32_t n = 0; n < few.count; ++n)
-    see_run(few.colors[n], static_cast<uint32_t>(std::popcount(few.places[n])));
+  for (uint32_t n = 0; n < few.count; ++n) see_run(few.colors[n], bit_count(few.places[n]));
 }
 
 void FrameMeter::count_few(bool compare, const Fvc& fvc) {
