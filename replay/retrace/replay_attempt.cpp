@@ -52,13 +52,13 @@ std::vector<std::string> seen_in(const std::string& folder) {
 
 /// Waits for the end of the retracer, or brings it about.
 void watch(WatchedProcess& retracer, const AttemptOrder& order, const ReplayOptions& options,
-           const std::atomic<bool>& stop, std::atomic<uint64_t>& rows, AttemptOutcome& outcome) {
+           const std::function<bool()>& stop, std::atomic<uint64_t>& rows, AttemptOutcome& outcome) {
   FrameRows frames(order.folder + "/runs");
   auto moved = Clock::now();
   while (!retracer.wait(kLookPeriod)) {
     if (frames.look()) moved = Clock::now();
     rows.store(frames.count(), std::memory_order_relaxed);
-    outcome.interrupted = stop.load(std::memory_order_relaxed);
+    outcome.interrupted = stop();
     outcome.stopped_early = order.may_stop_early && frames.count() >= order.frames_wanted;
     outcome.hung = options.timeout.count() > 0 && Clock::now() - moved > options.timeout;
     if (!outcome.interrupted && !outcome.stopped_early && !outcome.hung) continue;
@@ -72,7 +72,7 @@ void watch(WatchedProcess& retracer, const AttemptOrder& order, const ReplayOpti
 }  // namespace
 
 AttemptOutcome run_attempt(const ReplayRoad& road, const AttemptOrder& order, const ReplayOptions& options,
-                           const RunOptions& run, const std::atomic<bool>& stop,
+                           const RunOptions& run, const std::function<bool()>& stop,
                            std::atomic<uint64_t>& rows) {
   AttemptOutcome outcome;
   const std::string program = find_in_path(road.retracer);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,8 +32,9 @@ struct AttemptOutcome {
   std::vector<std::string> seen;        ///< entry points that the shim met
 };
 
-/// Runs to the end. `rows` receives the number of finished frames all along.
+/// Runs to the end, or until `stop` says so. `rows` receives the number of finished frames all along.
 AttemptOutcome run_attempt(const ReplayRoad& road, const AttemptOrder& order, const ReplayOptions& options,
-                           const RunOptions& run, const std::atomic<bool>& stop, std::atomic<uint64_t>& rows);
+                           const RunOptions& run, const std::function<bool()>& stop,
+                           std::atomic<uint64_t>& rows);
 
 }  // namespace tilepress

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <thread>
 
 namespace tilepress {
@@ -38,6 +40,55 @@ MeanSums sum_over(const std::vector<std::unique_ptr<TraceReplay>>& replays, cons
   return sums;
 }
 
+/// Replays that are prepared, in order, from the thread that reads traces to those that replay them.
+class ReadyReplays {
+ public:
+  void add(TraceReplay* replay) {
+    {
+      const std::lock_guard lock(mutex_);
+      replays_.push_back(replay);
+    }
+    changed_.notify_one();
+  }
+  /// No more are added.
+  void close() {
+    {
+      const std::lock_guard lock(mutex_);
+      closed_ = true;
+    }
+    changed_.notify_all();
+  }
+  /// Waits for it; null if there is none left, or once `stop` is true.
+  TraceReplay* next(const std::atomic<bool>& stop) {
+    std::unique_lock lock(mutex_);
+    while (next_ == replays_.size() && !closed_ && !stop) changed_.wait_for(lock, kTickPeriod);
+    return next_ == replays_.size() || stop ? nullptr : replays_[next_++];
+  }
+  size_t count() {
+    const std::lock_guard lock(mutex_);
+    return replays_.size();
+  }
+  BatchProgress progress() {
+    const std::lock_guard lock(mutex_);
+    BatchProgress progress;
+    if (closed_) progress.frames_wanted = 0;
+    for (const TraceReplay* replay : replays_) {
+      progress.frames_done += replay->frames_done();
+      const std::optional<uint64_t> wanted = replay->frames_wanted();
+      if (!wanted) progress.frames_wanted.reset();
+      if (progress.frames_wanted) *progress.frames_wanted += *wanted;
+    }
+    return progress;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<TraceReplay*> replays_;
+  size_t next_ = 0;
+  bool closed_ = false;
+};
+
 void append_once(std::vector<std::string>& list, const std::string& text) {
   if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
 }
@@ -50,36 +101,35 @@ ReplayBatch::ReplayBatch(const std::vector<ReplayInput>& inputs, const ReplayOpt
 
 void ReplayBatch::run(unsigned jobs, const std::atomic<bool>& stop,
                       const std::function<void(const BatchProgress&)>& tick) {
-  std::vector<TraceReplay*> ready;
-  BatchProgress progress;
-  for (const auto& replay : replays_) {
-    if (stop) return;
-    if (replay->prepare()) ready.push_back(replay.get());
-  }
-  for (const TraceReplay* replay : ready) progress.frames_wanted += replay->result().frames_wanted;
-
-  std::atomic<size_t> next{0};
-  std::atomic<unsigned> working{static_cast<unsigned>(std::min<size_t>(std::max(jobs, 1u), ready.size()))};
-  std::vector<std::thread> workers;
-  for (unsigned i = working; i > 0; --i)
-    workers.emplace_back([&] {
-      for (size_t index = next++; index < ready.size() && !stop; index = next++) ready[index]->run(stop);
-      --working;
+  jobs = std::max(jobs, 1u);
+  ReadyReplays ready;
+  std::mutex mutex;
+  std::condition_variable ended;
+  size_t working = std::min<size_t>(jobs, replays_.size());  // guarded by mutex
+  std::vector<std::thread> threads;
+  threads.emplace_back([&] {
+    for (const auto& replay : replays_) {
+      if (stop) break;
+      const bool at_once = ready.count() < jobs;
+      if (replay->prepare(at_once ? TraceReading::kMeanwhile : TraceReading::kBefore))
+        ready.add(replay.get());
+    }
+    ready.close();
+  });
+  for (size_t i = working; i > 0; --i)
+    threads.emplace_back([&] {
+      for (TraceReplay* replay = ready.next(stop); replay != nullptr; replay = ready.next(stop))
+        replay->run(stop);
+      {
+        const std::lock_guard lock(mutex);
+        --working;
+      }
+      ended.notify_one();
     });
-  // Workers wait for processes, so a short sleep here costs nothing and ends with the last of them.
-  auto told = std::chrono::steady_clock::now();
-  while (working > 0) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    if (std::chrono::steady_clock::now() - told < kTickPeriod) continue;
-    told = std::chrono::steady_clock::now();
-    progress.frames_done = 0;
-    for (const TraceReplay* replay : ready) progress.frames_done += replay->frames_done();
-    tick(progress);
-  }
-  for (std::thread& worker : workers) worker.join();
-  progress.frames_done = 0;
-  for (const TraceReplay* replay : ready) progress.frames_done += replay->frames_done();
-  tick(progress);
+  for (std::unique_lock lock(mutex); !ended.wait_for(lock, kTickPeriod, [&] { return working == 0; });)
+    tick(ready.progress());
+  for (std::thread& thread : threads) thread.join();
+  tick(ready.progress());
 }
 
 std::vector<CategoryMean> category_means(const std::vector<std::unique_ptr<TraceReplay>>& replays) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
+#include <thread>
 
 #include "frame_rows.h"
 #include "replay_attempt.h"
@@ -15,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::mutex making_folders;  ///< of replays at work at a time, which share the output folder
+
 std::string plural(uint64_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
@@ -23,6 +27,11 @@ const std::string* find_member(const RunInfo& info, const std::string& name) {
   for (const auto& [member, value] : info.further)
     if (member == name) return &value;
   return nullptr;
+}
+
+std::string absolute_path(const std::string& path) {
+  std::error_code code;
+  return fs::absolute(path, code).string();
 }
 
 /// Frames of the trace that the options take, counted per surface as the shim counts them.
@@ -37,7 +46,7 @@ uint64_t count_wanted(const TraceSummary& trace, const RunOptions& options) {
 }  // namespace
 
 struct TraceReplay::Attempt {
-  const ReplayRoad& road;
+  ReplayRoad road;
   std::string folder;
   AttemptOutcome outcome;
   RunRecord run{};           ///< the largest run of the attempt, a retracer makes one
@@ -56,7 +65,27 @@ void TraceReplay::fail(std::string reason, ReplayStatus status) {
   result_.reason = std::move(reason);
 }
 
-bool TraceReplay::prepare() {
+std::optional<uint64_t> TraceReplay::frames_wanted() const {
+  const uint64_t frames = frames_wanted_.load(std::memory_order_relaxed);
+  return frames == kUnknown ? std::nullopt : std::optional(frames);
+}
+
+bool TraceReplay::can_be_read_meanwhile() const {
+  if (!input_.sha256.empty() || options_.resume || !run_options_.frames.all()) return false;
+  std::string error;
+  const auto roads = replay_roads(TraceApi::kUnknown, options_.retracer, options_.display, error);
+  std::error_code code;
+  return !roads.empty() && roads[0].display == ReplayDisplay::kSurfaceless &&
+         !fs::exists(partial_path_, code) && !fs::exists(run_path_, code) && begins_as_trace(input_.path);
+}
+
+bool TraceReplay::prepare(TraceReading reading) {
+  if (reading == TraceReading::kMeanwhile && can_be_read_meanwhile()) return true;
+  return read_trace() && check_folder();
+}
+
+/// False, and failed, if the trace shows that it cannot or should not be replayed.
+bool TraceReplay::read_trace() {
   std::string error;
   const std::optional<TraceSummary> trace = summarize_trace(input_.path, error);
   if (!trace) return fail(error), false;
@@ -87,7 +116,9 @@ bool TraceReplay::prepare() {
     return false;
   }
   if (replay_roads(trace_.api, options_.retracer, options_.display, error).empty()) return fail(error), false;
-  return check_folder();
+  frames_wanted_ = result_.frames_wanted;
+  read_ = true;
+  return true;
 }
 
 bool TraceReplay::check_folder() {
@@ -142,30 +173,18 @@ bool TraceReplay::keep_finished_run() {
 }
 
 void TraceReplay::run(const std::atomic<bool>& stop) {
-  std::error_code code;
-  fs::create_directories(options_.run.output, code);
-  if (!code && !fs::create_directory(partial_path_, code) && !code)
-    code = std::make_error_code(std::errc::file_exists);
-  if (code) return fail(partial_path_ + ": " + code.message());
-
-  AttemptOrder order;
-  order.trace_path = fs::absolute(input_.path, code).string();
-  order.frames_wanted = result_.frames_wanted;
-  for (const TraceSurface& surface : trace_.surfaces) {
-    order.width = std::max(order.width, surface.width);
-    order.height = std::max(order.height, surface.height);
-    const auto last = run_options_.frames.last();
-    order.may_stop_early = order.may_stop_early || (last && *last + 1 < surface.frames);
-    // Rows are counted, and these would be counted with the rest.
-    if (run_options_.all_targets || run_options_.triggers != 0) order.may_stop_early = false;
-  }
+  if (!make_folder()) return;
   std::string error;
-  const std::vector<ReplayRoad> roads = replay_roads(trace_.api, options_.retracer, options_.display, error);
+  std::vector<ReplayRoad> roads =
+      replay_roads(read_ ? trace_.api : TraceApi::kUnknown, options_.retracer, options_.display, error);
   for (size_t i = 0; i < roads.size(); ++i) {
-    order.folder = partial_path_ + "/" + std::to_string(i);
+    const std::string folder = partial_path_ + "/" + std::to_string(i);
     options_.explain(input_.path + ": " + roads[i].name() + " (" + roads[i].why + ")");
-    Attempt attempt{roads[i], order.folder,
-                    run_attempt(roads[i], order, options_, run_options_, stop, frames_done_)};
+    Attempt attempt{roads[i], folder,
+                    read_ ? attempt_road(roads[i], folder, stop) : attempt_and_read(roads[i], folder, stop)};
+    if (!read_) break;
+    // The first road is the same for all: which others there are, the trace tells.
+    roads = replay_roads(trace_.api, options_.retracer, options_.display, error);
     find_run(attempt);
     judge(attempt);
     const bool last = i + 1 == roads.size() || !attempt.run.frames.empty() || attempt.outcome.interrupted ||
@@ -176,7 +195,61 @@ void TraceReplay::run(const std::atomic<bool>& stop) {
     }
     options_.explain(input_.path + ": " + result_.reason);
   }
+  remove_folder();
+}
+
+bool TraceReplay::make_folder() {
+  const std::lock_guard lock(making_folders);
+  std::error_code code;
+  for (fs::path path = options_.run.output; path.has_relative_path() && !fs::exists(path, code);
+       path = path.parent_path())
+    made_folders_.push_back(path.string());
+  fs::create_directories(options_.run.output, code);
+  if (!code && !fs::create_directory(partial_path_, code) && !code)
+    code = std::make_error_code(std::errc::file_exists);
+  if (code) fail(partial_path_ + ": " + code.message());
+  return !code;
+}
+
+/// A trace that turned out not to be replayable leaves nothing, as if it had been read before.
+void TraceReplay::remove_folder() {
+  const std::lock_guard lock(making_folders);
+  std::error_code code;
   fs::remove_all(partial_path_, code);
+  for (const std::string& path : made_folders_)
+    if (read_ || !fs::remove(path, code)) return;
+}
+
+AttemptOutcome TraceReplay::attempt_road(const ReplayRoad& road, const std::string& folder,
+                                         const std::atomic<bool>& stop) {
+  AttemptOrder order;
+  order.folder = folder;
+  order.frames_wanted = result_.frames_wanted;
+  for (const TraceSurface& surface : trace_.surfaces) {
+    order.width = std::max(order.width, surface.width);
+    order.height = std::max(order.height, surface.height);
+    const auto last = run_options_.frames.last();
+    order.may_stop_early = order.may_stop_early || (last && *last + 1 < surface.frames);
+    // Rows are counted, and these would be counted with the rest.
+    if (run_options_.all_targets || run_options_.triggers != 0) order.may_stop_early = false;
+  }
+  order.trace_path = absolute_path(input_.path);
+  return run_attempt(
+      road, order, options_, run_options_, [&stop] { return stop.load(); }, frames_done_);
+}
+
+AttemptOutcome TraceReplay::attempt_and_read(const ReplayRoad& road, const std::string& folder,
+                                             const std::atomic<bool>& stop) {
+  std::atomic<bool> hopeless{false};
+  std::thread reader([&] { hopeless = !read_trace(); });
+  AttemptOrder order;
+  order.folder = folder;
+  order.trace_path = absolute_path(input_.path);
+  const AttemptOutcome outcome = run_attempt(
+      road, order, options_, run_options_, [&] { return stop || hopeless; }, frames_done_);
+  reader.join();
+  if (hopeless) frames_wanted_ = frames_done_ = 0;
+  return outcome;
 }
 
 void TraceReplay::find_run(Attempt& attempt) {

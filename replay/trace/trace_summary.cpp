@@ -88,6 +88,22 @@ std::optional<TraceSummary> summarize_trace(std::span<const uint8_t> file, std::
   return summarize(input, error, limits);
 }
 
+bool begins_as_trace(const std::string& path) {
+  std::string error;
+  TraceInput input(path, error);
+  if (!input.is_open()) return false;
+  try {
+    const std::unique_ptr<TraceContainer> container = open_container(input, error);
+    if (!container) return false;
+    TraceStream stream(*container, TraceLimits().free_stream_bytes);
+    TraceEvents events(stream, [](std::string_view) { return false; });
+    TraceCall call;
+    return events.read_header() && events.next(call);
+  } catch (const TraceFault&) {
+    return false;
+  }
+}
+
 const char* name_of(TraceApi api) {
   switch (api) {
     case TraceApi::kEgl:

@@ -218,6 +218,18 @@ class Failures(ReplayCase):
         self.replay("silent.trace", status=NOTHING)
         self.assert_absent("out")
 
+    def test_of_a_trace_end_its_retracer_that_was_started_meanwhile(self):
+        self.write("silent.trace", NO_FRAMES)
+        env = self.fake_retracer('echo $$ > "$(dirname "$0")/started"; exec sleep 1000')
+        done = self.run_command("replay", "-q", "-o", "new/out", "--timeout", "0", "silent.trace",
+                                env={**NO_DISPLAY, **env})
+        self.assertEqual(done.stderr, b"tilepress: silent.trace: presents no frame (1 call, API EGL)\n")
+        self.assertEqual(done.returncode, NOTHING)
+        self.assert_absent("new")
+        if os.path.exists(self.path("started")):  # it may have been ended before its first word
+            with open(self.path("started")) as file:
+                self.assertFalse(os.path.exists("/proc/" + file.read().strip()))
+
     def test_of_a_retracer_are_told_with_its_last_words(self):
         env = self.fake_retracer("echo first >&2; echo cannot draw >&2; exit 7")
         text = self.replay("-q", "--display", "surfaceless", EGL, env=env, status=NOTHING)

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,16 +16,18 @@ namespace tilepress {
 /// A batch's frames so far.
 struct BatchProgress {
   uint64_t frames_done = 0;
-  uint64_t frames_wanted = 0;  ///< over all traces that can be replayed
+  /// Over all traces that can be replayed; none until all are read.
+  std::optional<uint64_t> frames_wanted;
 };
 
 class ReplayBatch {
  public:
   /// The options must outlive the batch.
   ReplayBatch(const std::vector<ReplayInput>& inputs, const ReplayOptions& options);
-  /// Reads all traces, then replays those that can be, `jobs` at a time; a trace that fails does not stop the
-  /// others. `tick` is called ten times a second or so, from this thread. Returns early, with the replays at
-  /// work ended and failed, once `stop` is true.
+  /// Reads all traces, and replays those that can be, `jobs` at a time, as soon as they are read; the first
+  /// need not even wait for that. A trace that fails does not stop the others. `tick` is called ten times a
+  /// second or so, from this thread. Returns early, with the replays at work ended and failed, once `stop` is
+  /// true.
   void run(unsigned jobs, const std::atomic<bool>& stop,
            const std::function<void(const BatchProgress&)>& tick);
   /// In the order of the inputs.

@@ -59,27 +59,46 @@ struct ReplayResult {
   RunRecord run;       ///< as written; empty if nothing was captured
 };
 
+struct AttemptOutcome;
+struct ReplayRoad;
+
+/// When the whole trace is read, which is as long as its retracer takes to start, or longer.
+enum class TraceReading : uint8_t {
+  kBefore,     ///< the replay
+  kMeanwhile,  ///< if nothing but the count of frames depends on it: no checksum, finished run or frame range
+};
+
 /// Usage: prepare(), then, if it returns true, run().
 class TraceReplay {
  public:
   TraceReplay(ReplayInput input, const ReplayOptions& options);
 
-  /// Reads the trace. False if there is nothing to run; result() then says why.
-  bool prepare();
-  /// Replays. Ends early, as failed, once `stop` is true.
+  /// Finds what can be found before. False if there is nothing to run; result() then says why.
+  bool prepare(TraceReading reading);
+  /// Replays. Ends early, as failed, once `stop` is true, or once the trace turns out not to be replayable.
   void run(const std::atomic<bool>& stop);
 
   const ReplayInput& input() const { return input_; }
+  /// After prepare() returned false, or after run().
   const ReplayResult& result() const { return result_; }
-  /// Frames finished so far; from any thread.
+  /// Frames asked for, none until the trace is read; and those finished so far. From any thread.
+  std::optional<uint64_t> frames_wanted() const;
   uint64_t frames_done() const { return frames_done_.load(std::memory_order_relaxed); }
 
  private:
   struct Attempt;
+  bool can_be_read_meanwhile() const;
+  bool read_trace();
+  bool make_folder();
+  void remove_folder();
   bool check_folder();
   bool keep_finished_run();
   void fail(std::string reason, ReplayStatus status = ReplayStatus::kFailed);
   std::string fingerprint() const;
+  AttemptOutcome attempt_road(const ReplayRoad& road, const std::string& folder,
+                              const std::atomic<bool>& stop);
+  AttemptOutcome attempt_and_read(const ReplayRoad& road, const std::string& folder,
+                                  const std::atomic<bool>& stop);
   void find_run(Attempt& attempt);
   void judge(const Attempt& attempt);
   void settle(const Attempt& attempt);
@@ -92,7 +111,10 @@ class TraceReplay {
   TraceSummary trace_;
   std::string sha256_, run_path_, partial_path_;
   ReplayResult result_;
-  std::atomic<uint64_t> frames_done_{0};
+  bool read_ = false;
+  std::vector<std::string> made_folders_;  ///< innermost first
+  static constexpr uint64_t kUnknown = UINT64_MAX;
+  std::atomic<uint64_t> frames_wanted_{kUnknown}, frames_done_{0};
 };
 
 }  // namespace tilepress

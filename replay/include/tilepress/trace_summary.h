@@ -41,9 +41,9 @@ struct TraceSummary {
   std::string contexts;  ///< client APIs asked for, as "OpenGL ES 3.2"; of the contexts that presented frames
   std::string gl_version, gl_renderer;  ///< as the recording machine reported them; empty if never asked
   uint64_t calls = 0;
-  uint64_t open_calls = 0;              ///< of those, calls that never returned; a retracer repeats them at the end
-  uint64_t threads = 0;                 ///< threads that made calls
-  uint64_t frames = 0;                  ///< presentations that a retracer repeats, over all surfaces
+  uint64_t open_calls = 0;  ///< of those, calls that never returned; a retracer repeats them at the end
+  uint64_t threads = 0;     ///< threads that made calls
+  uint64_t frames = 0;      ///< presentations that a retracer repeats, over all surfaces
   std::vector<TraceSurface> surfaces;   ///< those presented at least once, in the order of first presentation
   std::optional<uint64_t> duration_ns;  ///< between the first and the last GPU time stamp the program read
   TraceState state = TraceState::kComplete;
@@ -63,7 +63,9 @@ struct TraceLimits {
 /// path.
 std::optional<TraceSummary> summarize_trace(const std::string& path, std::string& error,
                                             const TraceLimits& limits = {});
-/// The same for a file held in memory.
+/// Whether `path` begins as a trace: its container, header and first call can be read. Reads some 100 KiB.
+bool begins_as_trace(const std::string& path);
+/// As the first, for a file held in memory.
 std::optional<TraceSummary> summarize_trace(std::span<const uint8_t> file, std::string& error,
                                             const TraceLimits& limits = {});
 
