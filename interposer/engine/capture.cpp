@@ -108,11 +108,11 @@ Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
     return take;
   };
   if (!options_.takes(turn.frame)) return ends_as(Outcome::kSkipped);
+  const std::string of_origin = shot.origin != "window" ? shot.origin + ": " : "";
   const std::optional<PixelFormat> format = shot.shape.format;
   if (!format || !traits(*format).modelled ||
       std::max(shot.shape.width, shot.shape.height) > kMaxSurfaceSide) {
-    std::string reason = "unsupported format";
-    if (shot.origin != "window") reason = shot.origin + ": " + reason;
+    std::string reason = of_origin + "unsupported format";
     if (format) reason.append(" ").append(traits(*format).name);
     report(turn.surface, reason);
     return ends_as(Outcome::kUnsupported);
@@ -126,7 +126,7 @@ Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
   frame.way = shot.any_way ? readback_->way(turn.window, pixels) : ReadWay::kSync;
   frame.arrive = [&queue = worker.queue(), filled = take.frame](bool whole) { queue.arrived(filled, whole); };
   if (std::string reason; !shot.read(frame, reason)) {
-    report(turn.surface, "not captured: " + reason);
+    report(turn.surface, "not captured: " + of_origin + reason);
     worker.queue().release(take.frame);
     take.frame = nullptr;
     return ends_as(Outcome::kNotCaptured);

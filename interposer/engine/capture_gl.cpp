@@ -10,6 +10,7 @@
 #include "interposer/engine/capture.h"
 #include "interposer/engine/in_context_readback.h"
 #include "interposer/engine/monotonic_clock.h"
+#include "interposer/engine/resolve_readback.h"
 #include "interposer/engine/target_watch.h"
 
 namespace tilepress {
@@ -62,6 +63,26 @@ bool is_second_of_pair(uint32_t kind, const CapturedFrame& frame) {
   last.kind = second ? uint32_t{TILEPRESS_GL_KINDS} : kind;
   last.hash = hash;
   return second;
+}
+
+/// A multisampled image, which no context reads as it is.
+bool read_beside(PresentSource& source, const Attachment& image, const SurfaceShape& shape,
+                 CapturedFrame& frame, std::string& reason) {
+  if (in_program_context_only()) {
+    reason = "a multisampled image is resolved in a private context alone";
+    return false;
+  }
+  const uint64_t begin_ns = now_ns();
+  uint64_t inside_ns = 0;
+  bool read = false;
+  const auto work = [&] {
+    const uint64_t bound_ns = now_ns();
+    read = read_resolved(source.gl(), image, shape, frame, reason);
+    inside_ns = now_ns() - bound_ns;
+  };
+  const bool ran = source.beside(work, reason);
+  frame.bind_ns = now_ns() - begin_ns - inside_ns;
+  return ran && read;
 }
 
 /// Where both roads are open, a call that came along the first comes along the second too: it is one frame.
@@ -208,11 +229,10 @@ void Capture::take_attachments(const TilepressPresent& present, PresentSource& s
     shot.key = {source.context(), image.attachment.image(), role};
     shot.origin = image.attachment.text();
     if (image.known) shot.shape = image.shape;
-    if (image.samples > 0) {
-      shot.shape.format = std::nullopt;
-      shot.origin += ", multisampled";
-    }
+    const bool multisampled = image.samples > 0;
+    if (multisampled) shot.origin += " resolved";
     shot.read = [&](CapturedFrame& frame, std::string& why) {
+      if (multisampled) return read_beside(source, image.attachment, image.shape, frame, why);
       why = "the program's context cannot be read";
       frame.way = ReadWay::kInContext;
       return read_attachment_in_program_context(gl, image.attachment, use, image.shape, frame);

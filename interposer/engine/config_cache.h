@@ -14,6 +14,7 @@ namespace tilepress {
 struct KnownConfig {
   void* config = nullptr;             ///< EGLConfig or GLXFBConfig; good as long as the display
   std::optional<PixelFormat> format;  ///< empty: its channels fit none
+  bool multisampled = false;          ///< not to be read without a resolve
   bool double_buffered = true;        ///< GLX; of an EGL surface it is the surface that knows
   bool srgb_capable = false;          ///< GLX, as is this
 };

@@ -149,6 +149,11 @@ class EglSource final : public PresentSource {
         break;
     }
     frame.way = ReadWay::kInContext;
+    const auto config = config_of(present);
+    if (config && config->multisampled) {
+      reason = "a multisampled surface is resolved in a private context alone";
+      return false;
+    }
     if (read_in_program_context(gl_, shape, buffer_of(present), frame)) return true;
     if (reason.empty()) reason = "the program's context cannot be read";
     return false;
@@ -238,7 +243,8 @@ class EglSource final : public PresentSource {
       EGLConfig config = nullptr;
       EGLint count = 0;
       if (!egl_.ChooseConfig(present.display, wanted, &config, 1, &count) || count != 1) return std::nullopt;
-      return KnownConfig{config, format_of(bits_of(present.display, config))};
+      return KnownConfig{config, format_of(bits_of(present.display, config)),
+                         attribute(present.display, config, EGL_SAMPLES) > 0};
     });
   }
 

@@ -30,6 +30,15 @@ bool GlFunctions::load(const Lookup& look_up) {
   fill(GetRenderbufferParameteriv, "glGetRenderbufferParameteriv");
   fill(GetTextureLevelParameteriv, "glGetTextureLevelParameteriv");
   fill(GetNamedRenderbufferParameteriv, "glGetNamedRenderbufferParameteriv");
+  fill(GenFramebuffers, "glGenFramebuffers");
+  fill(DeleteFramebuffers, "glDeleteFramebuffers");
+  fill(FramebufferRenderbuffer, "glFramebufferRenderbuffer");
+  fill(FramebufferTexture2D, "glFramebufferTexture2D");
+  fill(FramebufferTextureLayer, "glFramebufferTextureLayer");
+  fill(GenRenderbuffers, "glGenRenderbuffers");
+  fill(DeleteRenderbuffers, "glDeleteRenderbuffers");
+  fill(RenderbufferStorage, "glRenderbufferStorage");
+  fill(BlitFramebuffer, "glBlitFramebuffer");
   return fill(GetString, "glGetString") && fill(GetIntegerv, "glGetIntegerv") &&
          fill(GetError, "glGetError") && fill(PixelStorei, "glPixelStorei") &&
          fill(ReadPixels, "glReadPixels");

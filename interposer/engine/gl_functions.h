@@ -40,6 +40,18 @@ struct GlFunctions {
   void (*GetTextureLevelParameteriv)(GLuint, GLint, GLenum, GLint*) = nullptr;  ///< OpenGL 4.5
   void (*GetNamedRenderbufferParameteriv)(GLuint, GLenum, GLint*) = nullptr;    ///< OpenGL 4.5
 
+  // Resolving a multisampled image takes all of these.
+  void (*GenFramebuffers)(GLsizei, GLuint*) = nullptr;
+  void (*DeleteFramebuffers)(GLsizei, const GLuint*) = nullptr;
+  void (*FramebufferRenderbuffer)(GLenum, GLenum, GLenum, GLuint) = nullptr;
+  void (*FramebufferTexture2D)(GLenum, GLenum, GLenum, GLuint, GLint) = nullptr;
+  void (*FramebufferTextureLayer)(GLenum, GLenum, GLuint, GLint, GLint) = nullptr;
+  void (*GenRenderbuffers)(GLsizei, GLuint*) = nullptr;
+  void (*DeleteRenderbuffers)(GLsizei, const GLuint*) = nullptr;
+  void (*RenderbufferStorage)(GLenum, GLenum, GLsizei, GLsizei) = nullptr;
+  void (*BlitFramebuffer)(GLint, GLint, GLint, GLint, GLint, GLint, GLint, GLint, GLbitfield,
+                          GLenum) = nullptr;
+
   using Lookup = std::function<void*(const char*)>;
   /// False if a function of the first block is missing.
   bool load(const Lookup& look_up);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "interposer/engine/monotonic_clock.h"
+#include "interposer/engine/resolve_readback.h"
 
 namespace tilepress {
 namespace {
@@ -61,7 +62,9 @@ std::optional<PixelFormat> format_of(const ChannelBits& bits) {
 
 bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
                       const std::shared_ptr<PixelBuffers>& buffers, CapturedFrame& frame, GLenum& error) {
-  error = 0;
+  const BackBuffer back_buffer(gl, shape);
+  error = back_buffer.error();
+  if (error != 0) return false;
   frame.buffered_ns = 0;
   const Transfer transfer = transfer_of(*shape.format, gl);
   const size_t pitch_bytes = size_t{shape.width} * transfer.pixel_bytes;
@@ -73,9 +76,6 @@ bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
   frame.view.height = shape.height;
   frame.view.format = *shape.format;
   frame.view.order = transfer.order;
-  // Drivers have crashed on a read with READ_BUFFER = NONE; a fresh context on a window has GL_BACK, on
-  // others maybe not.
-  if (gl.ReadBuffer != nullptr) gl.ReadBuffer(GL_BACK);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   const PixelBuffers::Area area{static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height),
                                 transfer.format, transfer.type, pitch_bytes * shape.height};

@@ -135,6 +135,10 @@ class GlxSource final : public PresentSource {
       default:
         break;
     }
+    if (described() && described()->multisampled) {
+      reason = "a multisampled surface is resolved in a private context alone";
+      return false;
+    }
     const bool double_buffered = described() && described()->double_buffered;
     frame.way = ReadWay::kInContext;
     if (read_in_program_context(gl_, shape, double_buffered ? GL_BACK : GL_FRONT, frame)) return true;
@@ -257,6 +261,7 @@ class GlxSource final : public PresentSource {
       if (found != nullptr) glx_.Free(found);
       if (config == nullptr) return std::nullopt;
       return KnownConfig{config, format_of(bits_of(display, config)),
+                         attribute(display, config, GLX_SAMPLES) > 0,
                          attribute(display, config, GLX_DOUBLEBUFFER) != 0,
                          attribute(display, config, GLX_FRAMEBUFFER_SRGB_CAPABLE_ARB) != 0};
     });

@@ -147,6 +147,79 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, GlxPresents, ::testing::Values(Road::kPreload
                                                                : "Both";
                          });
 
+/// What three frames of `bytes` bytes hold that the program has read and printed itself.
+void expect_printed_frames(const ShimTest& test, const ShimRun& run, size_t bytes) {
+  ASSERT_EQ(run.runs.size(), 1u) << run.log;
+  EXPECT_EQ(run.runs[0].frames.size(), 3u) << run.log;
+  ASSERT_GE(run.process.out.size(), 3 * bytes);
+  for (unsigned frame = 0; frame < 3; ++frame) {
+    const auto begin = run.process.out.begin() + static_cast<std::ptrdiff_t>(frame * bytes);
+    const std::vector<uint8_t> own(begin, begin + static_cast<std::ptrdiff_t>(bytes));
+    EXPECT_EQ(test.dump(0, frame), own) << "frame " << frame;
+  }
+}
+
+/// The reds of the first frame that the program has printed: of the triangle 230 (0.9), encoded 243; where
+/// one, two or three of four samples are covered 58, 115, 173.
+std::set<uint8_t> printed_reds(const ShimRun& run, size_t bytes) {
+  std::set<uint8_t> reds;
+  for (size_t pixel = 0; pixel < bytes && pixel < run.process.out.size(); pixel += 4)
+    reds.insert(static_cast<uint8_t>(run.process.out[pixel]));
+  return reds;
+}
+
+class PrintedFrames : public ::testing::TestWithParam<Road> {
+ protected:
+  ShimRun run(const std::vector<std::string>& command) {
+    const ShimRun run = test_.run(command, {{"DISPLAY", own_display()}});
+    const ProcessResult without = run_process(command, {{"LD_PRELOAD", ""}, {"DISPLAY", own_display()}});
+    EXPECT_EQ(run.process.status, without.status);
+    EXPECT_EQ(run.process.out, without.out);
+    EXPECT_EQ(run.process.err, without.err);
+    return run;
+  }
+  ShimTest test_{GetParam()};
+};
+
+TEST_P(PrintedFrames, MultisampledSurfacesAreCapturedAsWhatIsShown) {
+  const ShimRun run_egl = run({TILEPRESS_EGL_SCENES, "samples"});
+  if (run_egl.process.exited_with(77)) GTEST_SKIP() << "the driver has no such config";
+  expect_printed_frames(test_, run_egl, 40 * 24 * 4);
+  EXPECT_EQ(printed_reds(run_egl, 40 * 24 * 4), (std::set<uint8_t>{0, 58, 115, 173, 230}));
+}
+
+TEST_P(PrintedFrames, MultisampledWindowsAreCapturedAsWhatIsShown) {
+  const ShimRun run_glx = run({TILEPRESS_GLX_PRESENTS, "samples"});
+  if (run_glx.process.exited_with(77)) GTEST_SKIP() << "the driver has no such visual";
+  expect_printed_frames(test_, run_glx, 64 * 48 * 4);
+  EXPECT_EQ(printed_reds(run_glx, 64 * 48 * 4), (std::set<uint8_t>{0, 58, 115, 173, 230}));
+}
+
+TEST_P(PrintedFrames, EncodedSurfacesAreReadAsTheyAreAndNamed) {
+  const ShimRun run_egl = run({TILEPRESS_EGL_SCENES, "srgb"});
+  if (run_egl.process.exited_with(77)) GTEST_SKIP() << "the driver has no such surface";
+  expect_printed_frames(test_, run_egl, 40 * 24 * 4);
+  EXPECT_EQ(printed_reds(run_egl, 40 * 24 * 4).count(243), 1u) << "not encoded: the test proves nothing";
+  ASSERT_EQ(run_egl.runs.at(0).surfaces.size(), 1u);
+  EXPECT_EQ(run_egl.runs[0].surfaces[0].at("color_space"), "srgb");
+}
+
+TEST_P(PrintedFrames, EncodedWindowsAreReadAsTheyAreAndNamed) {
+  const ShimRun run_glx = run({TILEPRESS_GLX_PRESENTS, "srgb"});
+  if (run_glx.process.exited_with(77)) GTEST_SKIP() << "the driver has no such visual";
+  expect_printed_frames(test_, run_glx, 64 * 48 * 4);
+  EXPECT_EQ(printed_reds(run_glx, 64 * 48 * 4).count(243), 1u) << "not encoded: the test proves nothing";
+  ASSERT_EQ(run_glx.runs.at(0).surfaces.size(), 1u);
+  EXPECT_EQ(run_glx.runs[0].surfaces[0].at("color_space"), "srgb");
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, PrintedFrames,
+                         ::testing::Values(Road::kPreload, Road::kGlvnd, Road::kBoth), [](const auto& road) {
+                           return road.param == Road::kPreload ? "Preload"
+                                  : road.param == Road::kGlvnd ? "Glvnd"
+                                                               : "Both";
+                         });
+
 TEST(Surfaces, LargeFramesAreNoMatterOfTheProgramsAllocator) {
   ShimTest test;
   const ShimRun run = run_scene(test, {"large"});

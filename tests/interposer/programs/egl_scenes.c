@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "covering_triangle.h"
 #include "egl_session.h"
 
 static const channel_bits kRgba8 = {8, 8, 8, 8, 0};
@@ -117,6 +118,29 @@ static void format(char** bits) {
   }
 }
 
+/* Frames that the program reads and prints itself: a multisampled surface, one whose values are encoded. */
+static void printed(EGLSurface surface, EGLContext context, void (*print)(int, int)) {
+  if (surface == EGL_NO_SURFACE || !eglMakeCurrent(display, surface, surface, context)) exit(77);
+  for (unsigned frame = 0; frame < 3; ++frame) {
+    draw_covering_triangle(frame);
+    print(40, 24);
+    if (!eglSwapBuffers(display, surface)) exit(8);
+  }
+  fprintf(stderr, "0x%x 0x%x\n", (unsigned)glGetError(), (unsigned)eglGetError());
+}
+
+static void samples(void) {
+  EGLConfig config = sampled_config(display, kRgba8, 4);
+  printed(make_pbuffer(display, config, 40, 24), make_context(display, config, 3), print_resolved);
+}
+
+static void srgb(void) {
+  EGLConfig config = exact_config(display, kRgba8);
+  const EGLint encoded[] = {EGL_WIDTH, 40, EGL_HEIGHT, 24, EGL_GL_COLORSPACE, EGL_GL_COLORSPACE_SRGB,
+                            EGL_NONE};
+  printed(eglCreatePbufferSurface(display, config, encoded), make_context(display, config, 3), print_pixels);
+}
+
 /* As Chromium's allocator: it ends the process when asked for a large alignment. */
 extern void* __libc_memalign(size_t alignment, size_t size);
 __attribute__((visibility("default"))) void* aligned_alloc(size_t alignment, size_t size) {
@@ -145,6 +169,8 @@ int main(int argc, char** argv) {
   if (strcmp(argv[1], "terminate") == 0) terminate();
   if (strcmp(argv[1], "destroyed") == 0) destroyed();
   if (strcmp(argv[1], "large") == 0) large();
+  if (strcmp(argv[1], "samples") == 0) samples();
+  if (strcmp(argv[1], "srgb") == 0) srgb();
   if (strcmp(argv[1], "failures") == 0) failures();
   if (strcmp(argv[1], "format") == 0 && argc > 6) format(argv + 2);
   return 0;

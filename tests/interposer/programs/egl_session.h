@@ -19,9 +19,9 @@ static inline EGLDisplay open_surfaceless(void) {
   return display;
 }
 
-/* The first config with exactly these channels and no multisampling; the program ends with 77 if there is
+/* The first config with exactly these channels and samples per pixel; the program ends with 77 if there is
  * none. */
-static inline EGLConfig exact_config(EGLDisplay display, channel_bits bits) {
+static inline EGLConfig sampled_config(EGLDisplay display, channel_bits bits, EGLint wanted_samples) {
   EGLConfig configs[256];
   EGLint count = 0, red, green, blue, alpha, samples, type;
   eglGetConfigs(display, configs, 256, &count);
@@ -32,11 +32,15 @@ static inline EGLConfig exact_config(EGLDisplay display, channel_bits bits) {
     eglGetConfigAttrib(display, configs[i], EGL_ALPHA_SIZE, &alpha);
     eglGetConfigAttrib(display, configs[i], EGL_SAMPLES, &samples);
     eglGetConfigAttrib(display, configs[i], EGL_COLOR_COMPONENT_TYPE_EXT, &type);
-    if (red == bits.red && green == bits.green && blue == bits.blue && alpha == bits.alpha && samples == 0 &&
-        (type == EGL_COLOR_COMPONENT_TYPE_FLOAT_EXT) == bits.floating)
+    if (red == bits.red && green == bits.green && blue == bits.blue && alpha == bits.alpha &&
+        samples == wanted_samples && (type == EGL_COLOR_COMPONENT_TYPE_FLOAT_EXT) == bits.floating)
       return configs[i];
   }
   exit(77);
+}
+
+static inline EGLConfig exact_config(EGLDisplay display, channel_bits bits) {
+  return sampled_config(display, bits, 0);
 }
 
 static inline EGLSurface make_pbuffer(EGLDisplay display, EGLConfig config, int width, int height) {

@@ -2,6 +2,7 @@
  * es3, gl. Each scene is a function below; every image holds the known picture, so that the tests know its
  * pixels. */
 #define GL_GLEXT_PROTOTYPES
+#include "covering_triangle.h"
 #include "egl_session.h"
 
 #include <GLES3/gl32.h>
@@ -115,7 +116,7 @@ static void resize(void) {
   draw_window_and_swap(0);
 }
 
-/* Renderbuffers, one of them multisampled, whose content is resolved by the capture. */
+/* Renderbuffers, one of them multisampled. */
 static void renderbuffers(void) {
   GLuint names[2];
   glGenRenderbuffers(2, names);
@@ -134,6 +135,50 @@ static void renderbuffers(void) {
     }
     draw_window_and_swap(frame);
   }
+}
+
+/* Multisampled images: a renderbuffer, a texture, arrays of one layer and of three. The program resolves each
+   as well and prints what it gets, frame by frame, under a scissor that a blit obeys. */
+static void multisampled(void) {
+  GLuint storage[2], texture[3];
+  glGenRenderbuffers(2, storage);
+  glGenTextures(3, texture);
+  const GLuint framebuffer = make_framebuffer(0), resolved = make_framebuffer(0);
+  glBindRenderbuffer(GL_RENDERBUFFER, storage[1]);
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 40, 24);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, storage[1]);
+  glBindRenderbuffer(GL_RENDERBUFFER, storage[0]);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, 4, GL_RGBA8, 40, 24);
+  glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, texture[0]);
+  glTexStorage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, 4, GL_RGBA8, 40, 24, GL_TRUE);
+  for (int array = 1; array < 3; ++array) {
+    glBindTexture(GL_TEXTURE_2D_MULTISAMPLE_ARRAY, texture[array]);
+    glTexStorage3DMultisample(GL_TEXTURE_2D_MULTISAMPLE_ARRAY, 4, GL_RGBA8, 40, 24, array == 1 ? 1 : 3,
+                              GL_TRUE);
+  }
+  for (unsigned frame = 0; frame < (unsigned)frames; ++frame)
+    for (unsigned image = 0; image < 4; ++image) {
+      glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+      if (image == 0)
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, storage[0]);
+      if (image == 1)
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, texture[0],
+                               0);
+      if (image >= 2)
+        glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture[image - 1], 0, image == 3);
+      glViewport(0, 0, 40, 24);
+      draw_covering_triangle(frame + image);
+      glEnable(GL_SCISSOR_TEST);
+      glScissor(1, 2, 3, 4);
+      glBindFramebuffer(GL_FRAMEBUFFER, 0);
+      glDisable(GL_SCISSOR_TEST);
+      glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+      glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
+      glBlitFramebuffer(0, 0, 40, 24, 0, 0, 40, 24, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+      glBindFramebuffer(GL_FRAMEBUFFER, resolved);
+      print_pixels(40, 24);
+    }
+  draw_window_and_swap(0);
 }
 
 /* A face of a cube map, a layer of an array, a level of a mipmap. */
@@ -251,6 +296,7 @@ int main(int argc, char** argv) {
   if (strcmp(scene, "recreate") == 0) recreate();
   if (strcmp(scene, "resize") == 0) resize();
   if (strcmp(scene, "renderbuffers") == 0) renderbuffers();
+  if (strcmp(scene, "multisampled") == 0) multisampled();
   if (strcmp(scene, "parts") == 0) parts();
   if (strcmp(scene, "invalidate") == 0) invalidate();
   if (strcmp(scene, "formats") == 0) formats();
