@@ -7,7 +7,7 @@
 extern "C" {
 #endif
 
-enum { TILEPRESS_ENGINE_VERSION = 5 };
+enum { TILEPRESS_ENGINE_VERSION = 6 };
 
 enum TilepressApi { TILEPRESS_EGL, TILEPRESS_GLX, TILEPRESS_OSMESA, TILEPRESS_API_COUNT };
 
@@ -17,6 +17,7 @@ struct TilepressPresent {
   void* real;         // the function the call is forwarded to
   void* display;      // EGLDisplay or Display*; NULL for OSMesa
   uintptr_t surface;  // EGLSurface or GLXDrawable; 0 for OSMesa
+  uint32_t current_elsewhere;  // GLX: another thread has the drawable current
   // x, y, width, height of each damage rectangle, origin at the bottom left; NULL = the whole surface
   const int32_t* damage;
   int32_t damage_count;

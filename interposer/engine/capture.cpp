@@ -93,6 +93,11 @@ void Capture::report(uint32_t surface, const std::string& reason) {
     log_->write(LogLevel::kWarn, "surface " + std::to_string(surface) + ": " + reason);
 }
 
+bool Capture::first_time(const std::string& reason) {
+  std::lock_guard lock(mutex_);
+  return told_.insert(reason).second;
+}
+
 Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
   Take take;
   take.role = shot.key.role;
@@ -188,7 +193,9 @@ bool Capture::begin_capture(TilepressPresent& present, uint64_t begin_ns) {
   if (present.api == TILEPRESS_OSMESA) shot.origin = "buffer";
   Take taken;
   if (std::string reason; !source->describe(present, shot.key, shot.shape, reason)) {
-    log_->write(LogLevel::kDebug, reason);
+    // A void call counts as a present whatever it does.
+    const bool told = present.api != TILEPRESS_GLX || !first_time(reason);
+    log_->write(told ? LogLevel::kDebug : LogLevel::kWarn, "not captured: " + reason);
   } else if (CaptureWorker* made = worker(present, *source)) {
     shot.any_way = true;
     shot.read = [&](CapturedFrame& frame, std::string& why) {

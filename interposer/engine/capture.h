@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,7 @@ class Capture {
   Take take(const Shot& shot, CaptureWorker& worker);
   Take miss(const Shot& shot, const std::string& reason);
   void commit(const Take& take);
+  bool first_time(const std::string& reason);
   void report(uint32_t surface, const std::string& reason);
   CaptureWorker* worker(const TilepressPresent& present, const PresentSource& source);
   bool is_capturing() const;
@@ -92,8 +94,9 @@ class Capture {
   uint64_t start_ns_ = 0;
   CaptureCounts counts_;
   SurfaceRegistry registry_;
-  std::mutex mutex_;  ///< guards sources_ and the making of worker_
+  std::mutex mutex_;  ///< guards sources_, told_ and the making of worker_
   std::vector<Source> sources_;
+  std::set<std::string> told_;
   std::atomic<void*> public_[TILEPRESS_API_COUNT] = {};  ///< presenting functions of libraries known by name
   std::unique_ptr<ReadbackChoices> readback_;
   LateReader reader_;

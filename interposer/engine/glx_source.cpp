@@ -35,6 +35,7 @@ struct GlxFunctions {
   decltype(&glXMakeContextCurrent) MakeContextCurrent = nullptr;
   decltype(&glXQueryContext) QueryContext = nullptr;
   decltype(&glXQueryDrawable) QueryDrawable = nullptr;
+  decltype(&XDefaultScreen) DefaultScreenOf = nullptr;
   decltype(&XFree) Free = nullptr;
   decltype(&XAddExtension) AddExtension = nullptr;
   CloseHook (*SetCloseDisplay)(Display*, int, CloseHook) = nullptr;
@@ -53,8 +54,9 @@ struct GlxFunctions {
            fill(GetFBConfigAttrib, "glXGetFBConfigAttrib") &&
            fill(GetProcAddressARB, "glXGetProcAddressARB") && fill(IsDirect, "glXIsDirect") &&
            fill(MakeContextCurrent, "glXMakeContextCurrent") && fill(QueryContext, "glXQueryContext") &&
-           fill(QueryDrawable, "glXQueryDrawable") && fill(Free, "XFree") &&
-           fill(AddExtension, "XAddExtension") && fill(SetCloseDisplay, "XESetCloseDisplay");
+           fill(QueryDrawable, "glXQueryDrawable") && fill(DefaultScreenOf, "XDefaultScreen") &&
+           fill(Free, "XFree") && fill(AddExtension, "XAddExtension") &&
+           fill(SetCloseDisplay, "XESetCloseDisplay");
   }
 };
 
@@ -71,8 +73,7 @@ class GlxSource final : public PresentSource {
 
   bool describe(const TilepressPresent& present, WindowKey& key, SurfaceShape& shape,
                 std::string& reason) override {
-    if (glx_.GetCurrentContext() == nullptr) return fail(reason, "no context is current");
-    if (glx_.GetCurrentDrawable() != present.surface) return fail(reason, "the drawable is not current");
+    if (!is_current(present)) return describe_idle(present, key, shape, reason);
     Display* display = glx_.GetCurrentDisplay();
     watch_end_of(display);
     unsigned width = 0, height = 0, drawable_config = 0;
@@ -127,6 +128,7 @@ class GlxSource final : public PresentSource {
   bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
             std::string& reason) override {
     const bool stay = in_program_context_only() || context_is_destroyed();
+    if (stay && !is_current(present)) return fail(reason, "the drawable is current nowhere");
     switch (stay ? Attempt::kNotBound : read_privately(present, shape, frame, reason)) {
       case Attempt::kRead:
         return true;
@@ -135,6 +137,7 @@ class GlxSource final : public PresentSource {
       default:
         break;
     }
+    if (!is_current(present)) return false;
     if (described() && described()->multisampled) {
       reason = "a multisampled surface is resolved in a private context alone";
       return false;
@@ -174,7 +177,32 @@ class GlxSource final : public PresentSource {
   /// The program has destroyed its context, which lives on until something else is made current, without a
   /// number.
   bool context_is_destroyed() const {
-    return glx_.GetContextIDEXT != nullptr && glx_.GetContextIDEXT(glx_.GetCurrentContext()) == None;
+    return glx_.GetContextIDEXT != nullptr && glx_.GetCurrentContext() != nullptr &&
+           glx_.GetContextIDEXT(glx_.GetCurrentContext()) == None;
+  }
+
+  bool is_current(const TilepressPresent& present) const {
+    return glx_.GetCurrentContext() != nullptr && glx_.GetCurrentDrawable() == present.surface;
+  }
+
+  /// The calling thread presents a drawable that it has not current. A window that was made for GLX, or a
+  /// pbuffer, keeps its buffers meanwhile, and what is asked about it here raises no X error.
+  bool describe_idle(const TilepressPresent& present, WindowKey& key, SurfaceShape& shape,
+                     std::string& reason) {
+    auto* display = static_cast<Display*>(present.display);
+    DrawableSize::GlxDrawable found;
+    if (present.current_elsewhere != 0) return fail(reason, "another thread has the drawable current");
+    if (!size_.query_glx(display, present.surface, found))
+      return fail(reason, "the drawable is current nowhere, where a plain X window has no buffers");
+    watch_end_of(display);
+    const int screen = found.screen >= 0 ? found.screen : glx_.DefaultScreenOf(display);
+    const auto& config = described() =
+        known_config(display, screen, GLX_FBCONFIG_ID, static_cast<int>(found.config));
+    if (!config) return fail(reason, "the drawable has no framebuffer config");
+    key = {display, present.surface};
+    shape = {found.width, found.height, config->format,
+             config->srgb_capable && glx_.GetCurrentContext() != nullptr && is_srgb()};
+    return true;
   }
 
   enum class Attempt { kRead, kNotBound, kContextLost };
@@ -183,13 +211,16 @@ class GlxSource final : public PresentSource {
                          std::string& reason) {
     const GLXContext context = glx_.GetCurrentContext();
     const GLXDrawable draw = glx_.GetCurrentDrawable(), read = glx_.GetCurrentReadDrawable();
-    Display* display = glx_.GetCurrentDisplay();
+    Display* before = glx_.GetCurrentDisplay();
+    Display* display =
+        context != nullptr && is_current(present) ? before : static_cast<Display*>(present.display);
     const auto config = static_cast<GLXFBConfig>(described() ? described()->config : nullptr);
     const ContextPool::Key key{display, reinterpret_cast<uintptr_t>(config)};
     const uint64_t begin_ns = now_ns();
     auto own = static_cast<GLXContext>(pool_.take(key));
     if (own == nullptr)
-      own = glx_.CreateNewContext(display, config, GLX_RGBA_TYPE, nullptr, glx_.IsDirect(display, context));
+      own = glx_.CreateNewContext(display, config, GLX_RGBA_TYPE, nullptr,
+                                  context == nullptr || glx_.IsDirect(before, context));
     const bool bound =
         own != nullptr && glx_.MakeContextCurrent(display, present.surface, present.surface, own);
     const uint64_t bound_ns = now_ns();
@@ -198,7 +229,7 @@ class GlxSource final : public PresentSource {
         bound && read_back_buffer(gl_, shape, buffers_of(display, config, own, frame.way), frame, error);
     if (taken && frame.late != nullptr) reader_.post(frame);  // before our context may go
     const uint64_t taken_ns = now_ns();
-    if (bound && !glx_.MakeContextCurrent(display, draw, read, context)) {
+    if (bound && !glx_.MakeContextCurrent(context != nullptr ? before : display, draw, read, context)) {
       reason = "the program's context could not be made current again";
       return Attempt::kContextLost;
     }

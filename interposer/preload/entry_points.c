@@ -29,6 +29,8 @@ const char* const tp_entry_names[TP_ENTRY_COUNT] = {
     "glXDestroyContext",
     "glXGetProcAddress",
     "glXGetProcAddressARB",
+    "glXMakeContextCurrent",
+    "glXMakeCurrent",
     "glXSwapBuffers",
     "glXSwapBuffersMscOML",
     "glfwSwapBuffers",

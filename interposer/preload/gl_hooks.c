@@ -109,6 +109,12 @@ void* tp_gl_answer(int name, void* real, bool always) {
   return real;
 }
 
+void tp_gl_making_current(uint32_t kind, const uintptr_t* arguments) {
+  if ((wanted() >> kind & 1) == 0) return;
+  struct TilepressGlCall call = {.kind = kind, .osmesa = osmesa, .arguments = arguments};
+  tp_gl_called(&call);
+}
+
 void tp_gl_osmesa_current(void* real, bool swaps) {
   osmesa = real;
   osmesa_swaps = swaps;

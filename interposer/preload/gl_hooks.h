@@ -18,6 +18,10 @@ bool tp_gl_concerns(int name);
 // (OSMesa's).
 void* tp_gl_answer(int name, void* real, bool always);
 
+// A program's glXMakeCurrent and the like: a watched call that is a hook already. `arguments` as
+// TilepressGlCall's.
+void tp_gl_making_current(uint32_t kind, const uintptr_t* arguments);
+
 // A thread has made an OSMesa context current, or none (`real` = NULL): from now on glFinish and glFlush are
 // watched. `swaps` = its frames end with glfwSwapBuffers instead.
 void tp_gl_osmesa_current(void* real, bool swaps);

@@ -49,6 +49,8 @@ static void* linked(enum tp_entry entry, void* caller) {
    tp_egl_int height)
 #define OSMESA_BUFFER (tp_context context, void* buffer, unsigned type, int width, int height)
 #define DRAWABLE (tp_display display, tp_glx_drawable drawable)
+#define DRAWABLE_CONTEXT (tp_display display, tp_glx_drawable drawable, tp_context context)
+#define DRAWABLES_CONTEXT (tp_display display, tp_glx_drawable draw, tp_glx_drawable read, tp_context context)
 #define DRAWABLE_MSC \
   (tp_display display, tp_glx_drawable drawable, int64_t target_msc, int64_t divisor, int64_t remainder)
 #define DRAWABLE_BOX (tp_display display, tp_glx_drawable drawable, int x, int y, int width, int height)
@@ -73,6 +75,10 @@ ENTRY_POINT(tp_egl_boolean, eglSwapBuffersWithDamageKHR, TP_EGL_SWAP_BUFFERS_WIT
             tp_on_egl_swap_with_damage, SURFACE_DAMAGE, display, surface, rectangles, count)
 ENTRY_POINT(tp_egl_boolean, eglPostSubBufferNV, TP_EGL_POST_SUB_BUFFER_NV, tp_on_egl_post_sub_buffer,
             SURFACE_BOX, display, surface, x, y, width, height)
+ENTRY_POINT(int, glXMakeCurrent, TP_GLX_MAKE_CURRENT, tp_on_glx_make_current, DRAWABLE_CONTEXT, display,
+            drawable, context)
+ENTRY_POINT(int, glXMakeContextCurrent, TP_GLX_MAKE_CONTEXT_CURRENT, tp_on_glx_make_context_current,
+            DRAWABLES_CONTEXT, display, draw, read, context)
 ENTRY_POINT(void, glXSwapBuffers, TP_GLX_SWAP_BUFFERS, tp_on_glx_swap, DRAWABLE, display, drawable)
 ENTRY_POINT(int64_t, glXSwapBuffersMscOML, TP_GLX_SWAP_BUFFERS_MSC_OML, tp_on_glx_swap_msc, DRAWABLE_MSC,
             display, drawable, target_msc, divisor, remainder)
@@ -100,6 +106,8 @@ void* const tp_hooks[TP_ENTRY_COUNT][TP_BANK_SIZE] = {
     [TP_GLX_COPY_SUB_BUFFER_MESA] = BANK(glXCopySubBufferMESA),
     [TP_GLX_GET_PROC_ADDRESS] = BANK(glXGetProcAddress),
     [TP_GLX_GET_PROC_ADDRESS_ARB] = BANK(glXGetProcAddressARB),
+    [TP_GLX_MAKE_CONTEXT_CURRENT] = BANK(glXMakeContextCurrent),
+    [TP_GLX_MAKE_CURRENT] = BANK(glXMakeCurrent),
     [TP_GLX_SWAP_BUFFERS] = BANK(glXSwapBuffers),
     [TP_GLX_SWAP_BUFFERS_MSC_OML] = BANK(glXSwapBuffersMscOML),
     [TP_OSMESA_DESTROY_CONTEXT] = BANK(OSMesaDestroyContext),

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "current_drawables.h"
 #include "elf_symbols.h"
 #include "entry_points.h"
 #include "gl_hooks.h"
@@ -59,9 +60,16 @@ tp_egl_boolean tp_on_egl_post_sub_buffer(void* real, tp_display display, tp_egl_
   return result;
 }
 
+static struct TilepressPresent glx_present(void* real, tp_display display, tp_glx_drawable drawable) {
+  return (struct TilepressPresent){.api = TILEPRESS_GLX,
+                                   .real = real,
+                                   .display = display,
+                                   .surface = drawable,
+                                   .current_elsewhere = tp_is_current_elsewhere(drawable)};
+}
+
 void tp_on_glx_swap(void* real, tp_display display, tp_glx_drawable drawable) {
-  struct TilepressPresent present = {
-      .api = TILEPRESS_GLX, .real = real, .display = display, .surface = drawable};
+  struct TilepressPresent present = glx_present(real, display, drawable);
   if (real == NULL) return;
   const bool taken = tp_presenting(&present);
   ((void (*)(tp_display, tp_glx_drawable))real)(display, drawable);
@@ -71,8 +79,7 @@ void tp_on_glx_swap(void* real, tp_display display, tp_glx_drawable drawable) {
 int64_t tp_on_glx_swap_msc(void* real, tp_display display, tp_glx_drawable drawable, int64_t target_msc,
                            int64_t divisor, int64_t remainder) {
   typedef int64_t (*function)(tp_display, tp_glx_drawable, int64_t, int64_t, int64_t);
-  struct TilepressPresent present = {
-      .api = TILEPRESS_GLX, .real = real, .display = display, .surface = drawable};
+  struct TilepressPresent present = glx_present(real, display, drawable);
   if (real == NULL) return -1;
   const bool taken = tp_presenting(&present);
   const int64_t result = ((function)real)(display, drawable, target_msc, divisor, remainder);
@@ -83,16 +90,33 @@ int64_t tp_on_glx_swap_msc(void* real, tp_display display, tp_glx_drawable drawa
 void tp_on_glx_copy_sub_buffer(void* real, tp_display display, tp_glx_drawable drawable, int x, int y,
                                int width, int height) {
   const int32_t damage[4] = {x, y, width, height};
-  struct TilepressPresent present = {.api = TILEPRESS_GLX,
-                                     .real = real,
-                                     .display = display,
-                                     .surface = drawable,
-                                     .damage = damage,
-                                     .damage_count = 1};
+  struct TilepressPresent present = glx_present(real, display, drawable);
+  present.damage = damage;
+  present.damage_count = 1;
   if (real == NULL) return;
   const bool taken = tp_presenting(&present);
   ((void (*)(tp_display, tp_glx_drawable, int, int, int, int))real)(display, drawable, x, y, width, height);
   if (taken) tp_presented(&present, true);
+}
+
+int tp_on_glx_make_current(void* real, tp_display display, tp_glx_drawable drawable, tp_context context) {
+  const uintptr_t arguments[] = {(uintptr_t)display, drawable, (uintptr_t)context};
+  if (real == NULL) return 0;
+  tp_gl_making_current(TILEPRESS_GL_MAKE_CURRENT_3, arguments);
+  const int result = ((int (*)(tp_display, tp_glx_drawable, tp_context))real)(display, drawable, context);
+  if (result != 0) tp_drawables_current(drawable, drawable);
+  return result;
+}
+
+int tp_on_glx_make_context_current(void* real, tp_display display, tp_glx_drawable draw, tp_glx_drawable read,
+                                   tp_context context) {
+  typedef int (*function)(tp_display, tp_glx_drawable, tp_glx_drawable, tp_context);
+  const uintptr_t arguments[] = {(uintptr_t)display, draw, read, (uintptr_t)context};
+  if (real == NULL) return 0;
+  tp_gl_making_current(TILEPRESS_GL_MAKE_CURRENT, arguments);
+  const int result = ((function)real)(display, draw, read, context);
+  if (result != 0) tp_drawables_current(draw, read);
+  return result;
 }
 
 // OSMesa presents nothing: a frame ends where the program finishes or flushes, or with glfwSwapBuffers.

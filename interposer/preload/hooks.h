@@ -20,6 +20,9 @@ tp_egl_boolean tp_on_egl_destroy_context(void* real, tp_display display, tp_cont
 tp_egl_boolean tp_on_egl_destroy_surface(void* real, tp_display display, tp_egl_surface surface);
 tp_egl_boolean tp_on_egl_terminate(void* real, tp_display display);
 void tp_on_glx_destroy_context(void* real, tp_display display, tp_context context);
+int tp_on_glx_make_current(void* real, tp_display display, tp_glx_drawable drawable, tp_context context);
+int tp_on_glx_make_context_current(void* real, tp_display display, tp_glx_drawable draw, tp_glx_drawable read,
+                                   tp_context context);
 void tp_on_osmesa_destroy_context(void* real, tp_context context);
 void* tp_on_osmesa_get_proc_address(void* real, const char* name);
 // `caller`: an address in the code that calls.

@@ -220,6 +220,70 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, PrintedFrames,
                                                                : "Both";
                          });
 
+/// Windows presented while they are not current on the calling thread.
+class IdleDrawables : public ::testing::TestWithParam<Road> {
+ protected:
+  ShimRun run(const char* mode) {
+    const ShimRun run = test_.run({TILEPRESS_GLX_IDLE, mode}, {{"DISPLAY", own_display()}});
+    const ProcessResult without =
+        run_process({TILEPRESS_GLX_IDLE, mode}, {{"LD_PRELOAD", ""}, {"DISPLAY", own_display()}});
+    EXPECT_TRUE(run.process.exited_with(0)) << mode << run.process.err;
+    EXPECT_EQ(run.process.out, without.out) << mode;
+    EXPECT_EQ(run.process.err, without.err) << mode;
+    EXPECT_EQ(run.runs.size(), 1u) << mode << run.log;
+    return run;
+  }
+  ShimTest test_{GetParam()};
+};
+
+TEST_P(IdleDrawables, AreCapturedWhileAnotherIsCurrent) {
+  const ShimRun captured = run("other");
+  ASSERT_EQ(captured.runs.size(), 1u);
+  expect_surface(test_, captured.runs[0], 0, 3, 64, 48, false);
+  expect_surface(test_, captured.runs[0], 1, 3, 48, 40, false);
+  EXPECT_EQ(captured.runs[0].json_text("api"), "GLX");
+}
+
+TEST_P(IdleDrawables, AreCapturedWhileNothingIsCurrent) {
+  const ShimRun captured = run("released");
+  ASSERT_EQ(captured.runs.size(), 1u);
+  expect_surface(test_, captured.runs[0], 0, 3, 64, 48, false);
+  expect_surface(test_, captured.runs[0], 1, 3, 48, 40, false);
+}
+
+TEST_P(IdleDrawables, AreCapturedFromAnotherThreadUnlessTheyAreCurrentOnOne) {
+  const ShimRun captured = run("after");
+  ASSERT_EQ(captured.runs.size(), 1u);
+  expect_surface(test_, captured.runs[0], 0, 3, 64, 48, false);
+  expect_surface(test_, captured.runs[0], 1, 3, 48, 40, false);
+}
+
+TEST_P(IdleDrawables, OfAnotherThreadAreCountedAsNotCaptured) {
+  const ShimRun captured = run("thread");
+  ASSERT_EQ(captured.runs.size(), 1u);
+  expect_surface(test_, captured.runs[0], 0, 3, 64, 48, false);
+  EXPECT_EQ(captured.runs[0].frames.size(), 3u);
+  EXPECT_EQ(captured.runs[0].json_number("seen"), 6);
+  EXPECT_EQ(captured.runs[0].json_number("not_captured"), 3);
+  EXPECT_EQ(captured.log, "tilepress: not captured: another thread has the drawable current\n");
+}
+
+// Mesa sends such a present to the X server, which refuses it: the program's own error, and no other.
+TEST_P(IdleDrawables, OfPlainWindowsHaveNoBuffers) {
+  const ShimRun captured = run("plain");
+  ASSERT_EQ(captured.runs.size(), 1u);
+  expect_surface(test_, captured.runs[0], 0, 3, 48, 40, false);
+  EXPECT_EQ(captured.runs[0].frames.size(), 3u);
+  EXPECT_EQ(captured.runs[0].json_number("not_captured"), 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, IdleDrawables,
+                         ::testing::Values(Road::kPreload, Road::kGlvnd, Road::kBoth), [](const auto& road) {
+                           return road.param == Road::kPreload ? "Preload"
+                                  : road.param == Road::kGlvnd ? "Glvnd"
+                                                               : "Both";
+                         });
+
 TEST(Surfaces, LargeFramesAreNoMatterOfTheProgramsAllocator) {
   ShimTest test;
   const ShimRun run = run_scene(test, {"large"});
