@@ -3,7 +3,6 @@
 #include "tilepress/surface_engine.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 #include <chrono>
@@ -12,36 +11,16 @@
 #include <utility>
 
 #include "block_check.h"
-#include "dcp/ccd.h"
-#include "dcp/fvc.h"
-#include "dcp/lfc_collector.h"
+#include "dcp/collector.h"
 #include "memory/surface_store.h"
 #include "ras/ras_stream.h"
 #include "simd/kernels.h"
 #include "statistics/frame_metrics.h"
 #include "tilepress/scheme.h"
-#include "tilepress/simd.h"
 #include "tilepress/tiler.h"
 
 namespace tilepress {
 namespace {
-
-/// An FVC configuration in use: what it collects, and the dictionary in force.
-struct Collector {
-  Collector(const FvcConfig& config, const FormatTraits& format) : fvc(config, format) {
-    if (config.policy == FvcPolicy::kLfc && config.ways == 0 && config.sample == 1 &&
-        config.entries <= LfcCollector::kMaxEntries && simd_target() != "scalar")
-      fast = std::make_unique<LfcCollector>(config.entries);
-  }
-  Fvc fvc;
-  std::unique_ptr<LfcCollector> fast;  ///< collects in the place of fvc where it can, to the same result
-  Ccd ccd;
-  CcdLookup lookup;
-  bool has_ccd = false;
-  bool wanted = false;      ///< a scheme looks colours up in its CCD
-  bool collecting = false;  ///< in this frame
-  std::array<uint32_t, kBlockPixels> indices, largest;
-};
 
 struct Lane {
   std::unique_ptr<BlockEncoder> encoder;
@@ -76,7 +55,7 @@ struct SurfaceEngine::State {
     uint32_t color = 0;
     uint64_t repeats = 0;
   } last;
-  /// Pixels of one colour in a row that the fast collectors have not seen yet.
+  /// Pixels of one colour in a row that the collectors have not seen yet.
   struct {
     uint32_t color = 0, count = 0;
   } run;
@@ -108,7 +87,7 @@ struct SurfaceEngine::State {
 
 Collector& SurfaceEngine::State::collector_for(const FvcConfig& config, const FormatTraits& format) {
   for (Collector& collector : collectors)
-    if (collector.fvc.config() == config) return collector;
+    if (collector.fvc().config() == config) return collector;
   return collectors.emplace_back(config, format);
 }
 
@@ -139,12 +118,7 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
 }
 
 void SurfaceEngine::State::begin_frame(FrameStatistics& out) {
-  for (Collector& collector : collectors) {
-    collector.collecting = ordinal % collector.fvc.config().period == 0;
-    if (!collector.collecting) continue;
-    collector.fvc.reset();
-    if (collector.fast) collector.fast->reset();
-  }
+  for (Collector& collector : collectors) collector.begin_frame(ordinal);
   last.solid = false;
   if (options.frame_metrics) meter.begin_frame(size_t{now.width()} * now.height());
   out.schemes.assign(lanes.size(), SchemeStatistics{});
@@ -157,7 +131,7 @@ void SurfaceEngine::State::begin_frame(FrameStatistics& out) {
   }
   for (size_t i = 0; i < lanes.size(); ++i) {
     Lane& lane = lanes[i];
-    const Ccd* ccd = lane.collector != nullptr && lane.collector->has_ccd ? &lane.collector->ccd : nullptr;
+    const Ccd* ccd = lane.collector != nullptr ? lane.collector->ccd() : nullptr;
     const FrameContext frame{.plane = now, .ordinal = ordinal, .ccd = ccd};
     lane.encoder->begin_frame(frame);
     if (!surfaces.empty()) lane.store.begin_frame(specs[i], options, frame, *lane.encoder, surfaces[i]);
@@ -178,8 +152,7 @@ uint32_t SurfaceEngine::State::pixels_inside(uint32_t bx, uint32_t by) const {
 
 void SurfaceEngine::State::settle_run() {
   if (run.count == 0) return;
-  for (Collector& collector : collectors)
-    if (collector.collecting && collector.fast) collector.fast->see_run(run.color, run.count);
+  for (Collector& collector : collectors) collector.see_run(run.color, run.count);
   if (options.frame_metrics) meter.see_run(run.color, run.count);
   run.count = 0;
 }
@@ -189,8 +162,6 @@ void SurfaceEngine::State::collect_solid(uint32_t bx, uint32_t by, uint32_t colo
   if (run.color != color) settle_run();
   run.color = color;
   run.count += count;
-  for (Collector& collector : collectors)
-    if (collector.collecting && !collector.fast) collector.fvc.see_run(color, count);
 }
 
 void SurfaceEngine::State::collect(const BlockContext& block) {
@@ -206,17 +177,9 @@ void SurfaceEngine::State::collect(const BlockContext& block) {
       if (kTraversal[i] % 8 < width && kTraversal[i] / 8 < height) inside[count++] = block.pixels[i];
     pixels = inside;
   }
-  const bool whole_few = is_few && count == kBlockPixels;
-  if (options.frame_metrics) whole_few ? meter.see_block(few) : meter.see_all(pixels, count);
-  for (Collector& collector : collectors) {
-    if (!collector.collecting) continue;
-    if (!collector.fast)
-      collector.fvc.see_all(pixels, count);
-    else if (count == kBlockPixels)
-      (whole_few && collector.fast->see_block(few)) || (collector.fast->see_block(pixels), true);
-    else
-      for (uint32_t i = 0; i < count; ++i) collector.fast->see_run(pixels[i], 1);
-  }
+  const FewColors* whole_few = is_few && count == kBlockPixels ? &few : nullptr;
+  if (options.frame_metrics) whole_few != nullptr ? meter.see_block(few) : meter.see_all(pixels, count);
+  for (Collector& collector : collectors) collector.see_all(pixels, count, whole_few);
 }
 
 /// Blocks of one colour come in rows: each counts like the one before. False if this one does not.
@@ -267,24 +230,16 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
   last.color = pixels[0];
   if (needs_raster || (needs_raster_to_encode && !surfaces.empty())) now.load_block(bx, by, block);
   for (Collector& collector : collectors) {
-    if (!collector.wanted || !collector.has_ccd) continue;
-    if (is_few) {
-      collector.lookup.find_block(pixels, few, collector.indices.data(), collector.largest.data());
-    } else if (context.uniform) {
-      const uint32_t index = collector.lookup.find(pixels[0]);
-      collector.indices.fill(index);
-      collector.largest.fill(index);
-    } else {
-      collector.lookup.find_block(pixels, collector.indices.data(), collector.largest.data());
-    }
+    if (collector.wanted && collector.ccd() != nullptr)
+      collector.look_up(pixels, context.uniform, is_few ? &few : nullptr);
   }
   if (needs_ras) context.ras_bits = ras_bits(context, top_left, format, false);
   if (needs_ras_ycocg) context.ras_ycocg_bits = ras_bits(context, top_left, format, true);
   for (size_t i = 0; i < lanes.size(); ++i) {
     Lane& lane = lanes[i];
-    const bool look_up = lane.collector != nullptr && lane.collector->has_ccd;
-    context.ccd_indices = look_up ? lane.collector->indices.data() : nullptr;
-    context.ccd_largest = look_up ? lane.collector->largest.data() : nullptr;
+    const bool look_up = lane.collector != nullptr && lane.collector->ccd() != nullptr;
+    context.ccd_indices = look_up ? lane.collector->indices() : nullptr;
+    context.ccd_largest = look_up ? lane.collector->largest() : nullptr;
     const uint32_t payload_bits =
         surfaces.empty() ? lane.encoder->measure(context) : lane.store.put(*lane.encoder, context);
     if (context.uniform) lane.last = {};
@@ -306,8 +261,7 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
 void SurfaceEngine::State::end_frame(FrameStatistics& out) {
   settle_repeats(out);
   settle_run();
-  for (Collector& collector : collectors)
-    if (collector.collecting && collector.fast) collector.fast->store_to(collector.fvc);
+  for (Collector& collector : collectors) collector.end_frame();
   const uint64_t blocks = now.blocks();
   for (size_t i = 0; i < lanes.size(); ++i) {
     SchemeStatistics& scheme = out.schemes[i];
@@ -318,13 +272,9 @@ void SurfaceEngine::State::end_frame(FrameStatistics& out) {
   out.metrics = FrameMetrics{};
   if (options.frame_metrics)
     out.metrics =
-        meter.measure(now, has_before ? std::optional(changed) : std::nullopt, collectors.front().fvc);
-  for (Collector& collector : collectors) {
-    if (!collector.wanted || !collector.collecting) continue;
-    collector.ccd.build(collector.fvc);
-    collector.lookup.build(collector.ccd);
-    collector.has_ccd = true;
-  }
+        meter.measure(now, has_before ? std::optional(changed) : std::nullopt, collectors.front().fvc());
+  for (Collector& collector : collectors)
+    if (collector.wanted) collector.build_ccd();
   has_before = true;
   ++ordinal;
 }
@@ -352,7 +302,7 @@ std::vector<uint64_t> SurfaceEngine::history(uint64_t ordinal, PixelFormat forma
   if (ordinal == 0) return frames;
   frames.push_back(ordinal - 1);
   for (const Collector& collector : state_->collectors)
-    frames.push_back((ordinal - 1) / collector.fvc.config().period * collector.fvc.config().period);
+    frames.push_back((ordinal - 1) / collector.fvc().config().period * collector.fvc().config().period);
   for (const Lane& lane : state_->lanes)
     if (lane.needs.first_frame) frames.push_back(0);
   std::sort(frames.begin(), frames.end());

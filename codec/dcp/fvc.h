@@ -34,14 +34,6 @@ class Fvc {
   }
   /// Empties it, as at the start of each frame it collects in.
   void reset();
-  /// The next pixel of the frame inside the surface, in traversal order; counts it if it is a sampled one.
-  void see(uint32_t color) {
-    if (--until_sample_ == 0) {
-      until_sample_ = config_.sample;
-      collect(color);
-    }
-  }
-
   /// Takes over the state of a faster collector: a slot (count 0 = empty), and the pixels that entered.
   void set_slot(uint32_t slot, uint32_t color, uint32_t count) {
     colors_[slot] = color;

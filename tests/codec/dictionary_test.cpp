@@ -31,7 +31,7 @@ TEST(Ccd, OrdersByCountThenBySlot) {
   FvcConfig config;
   config.entries = 8;
   Fvc fvc(config, traits(PixelFormat::kRgba8));
-  for (const uint32_t color : {10, 20, 30, 40, 30, 20, 40, 40}) fvc.see(color);  // 10:1 20:2 30:2 40:3
+  for (const uint32_t color : {10, 20, 30, 40, 30, 20, 40, 40}) fvc.see_run(color, 1);  // 10:1 20:2 30:2 40:3
   Ccd ccd;
   ccd.build(fvc);
   EXPECT_EQ(ccd.entries, 8u);

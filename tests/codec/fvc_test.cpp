@@ -22,7 +22,7 @@ FvcConfig config(uint32_t entries, FvcPolicy policy, uint32_t ways = 0) {
 
 Fvc fed(const FvcConfig& fvc_config, const std::vector<uint32_t>& colors) {
   Fvc fvc(fvc_config, traits(PixelFormat::kRgba8));
-  for (const uint32_t color : colors) fvc.see(color);
+  for (const uint32_t color : colors) fvc.see_run(color, 1);
   return fvc;
 }
 
@@ -86,17 +86,17 @@ TEST(Fvc, LruEvictsTheLeastRecentlyHitOrInserted) {
 TEST(Fvc, RandomEvictsByXorshiftStartedAnewAtEachReset) {
   // xorshift32 from 0x9E3779B9: 0x510C4619, 0xE02E553E, 0x7BB98F3A, 0x0183A8B5; modulo 4: 1, 2, 2, 1.
   Fvc fvc = fed(config(4, FvcPolicy::kRandom), {A, B, C, D});
-  fvc.see(0x100);
+  fvc.see_run(0x100, 1);
   expect_slot(fvc, 1, 0x100, 1);
-  fvc.see(0x100);  // a hit: no step
-  fvc.see(0x200);
+  fvc.see_run(0x100, 1);  // a hit: no step
+  fvc.see_run(0x200, 1);
   expect_slot(fvc, 2, 0x200, 1);
-  fvc.see(0x300);
+  fvc.see_run(0x300, 1);
   expect_slot(fvc, 2, 0x300, 1);
-  fvc.see(0x400);
+  fvc.see_run(0x400, 1);
   expect_slot(fvc, 1, 0x400, 1);
   fvc.reset();
-  for (const uint32_t color : {A, B, C, D, E}) fvc.see(color);
+  for (const uint32_t color : {A, B, C, D, E}) fvc.see_run(color, 1);
   expect_slot(fvc, 1, E, 1);
 }
 
@@ -117,7 +117,7 @@ TEST(Fvc, TheSetIsTheExclusiveOrOfTheChannels) {
 
 TEST(Fvc, TheSetOfA565PixelComesFromItsOwnChannels) {
   Fvc fvc(config(8, FvcPolicy::kLfc, 1), traits(PixelFormat::kRgb565));
-  fvc.see(3u << 11 | 5u << 5 | 1u);  // 3^5^1 = 7
+  fvc.see_run(3u << 11 | 5u << 5 | 1u, 1);  // 3^5^1 = 7
   expect_slot(fvc, 7, 3u << 11 | 5u << 5 | 1u, 1);
 }
 
@@ -138,6 +138,6 @@ TEST(Fvc, ResetEmptiesItAndSamplesFromPixel0Again) {
   EXPECT_EQ(fvc.samples(), 0u);
   EXPECT_EQ(fvc.coverage(), 0.0);
   EXPECT_FALSE(fvc.valid(0));
-  fvc.see(C);
+  fvc.see_run(C, 1);
   expect_slot(fvc, 0, C, 1);
 }

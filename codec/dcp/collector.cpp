@@ -1,0 +1,56 @@
+// Collector: which of the FVC's two forms collects, and when.
+#include "dcp/collector.h"
+
+#include "tilepress/simd.h"
+
+namespace tilepress {
+
+Collector::Collector(const FvcConfig& config, const FormatTraits& format) : fvc_(config, format) {
+  if (config.policy == FvcPolicy::kLfc && config.ways == 0 && config.sample == 1 &&
+      config.entries <= LfcCollector::kMaxEntries && simd_target() != "scalar")
+    fast_ = std::make_unique<LfcCollector>(config.entries);
+}
+
+void Collector::begin_frame(uint64_t ordinal) {
+  collecting_ = ordinal % fvc_.config().period == 0;
+  if (!collecting_) return;
+  fvc_.reset();
+  if (fast_) fast_->reset();
+}
+
+void Collector::see_run(uint32_t color, uint32_t count) {
+  if (!collecting_) return;
+  fast_ ? fast_->see_run(color, count) : fvc_.see_run(color, count);
+}
+
+void Collector::see_all(const uint32_t* pixels, uint32_t count, const FewColors* few) {
+  if (!collecting_) return;
+  if (!fast_) {
+    fvc_.see_all(pixels, count);
+  } else if (count < kBlockPixels) {
+    for (uint32_t i = 0; i < count; ++i) fast_->see_run(pixels[i], 1);
+  } else if (few == nullptr || !fast_->see_block(*few)) {
+    fast_->see_block(pixels);
+  }
+}
+
+void Collector::end_frame() {
+  if (collecting_ && fast_) fast_->store_to(fvc_);
+}
+
+void Collector::build_ccd() {
+  if (!collecting_) return;
+  ccd_.build(fvc_);
+  lookup_.build(ccd_);
+  has_ccd_ = true;
+}
+
+void Collector::look_up(const uint32_t* pixels, bool uniform, const FewColors* few) {
+  if (few != nullptr) return lookup_.find_block(pixels, *few, indices_.data(), largest_.data());
+  if (!uniform) return lookup_.find_block(pixels, indices_.data(), largest_.data());
+  const uint32_t index = lookup_.find(pixels[0]);
+  indices_.fill(index);
+  largest_.fill(index);
+}
+
+}  // namespace tilepress

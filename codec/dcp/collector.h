@@ -1,0 +1,54 @@
+// Collector: an FVC configuration in use, what it collects, and the dictionary in force.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "dcp/ccd.h"
+#include "dcp/fvc.h"
+#include "dcp/lfc_collector.h"
+#include "simd/kernels.h"
+#include "tilepress/block.h"
+#include "tilepress/pixel_format.h"
+#include "tilepress/scheme_spec.h"
+
+namespace tilepress {
+
+/// Collects in the frames of its period and builds a CCD at the end of each, which serves the frames after
+/// it.
+class Collector {
+ public:
+  Collector(const FvcConfig& config, const FormatTraits& format);
+
+  void begin_frame(uint64_t ordinal);
+  /// `count` pixels of one colour in a row.
+  void see_run(uint32_t color, uint32_t count);
+  /// Pixels in traversal order. `few`: their colours, if they are a whole block of few; else null.
+  void see_all(const uint32_t* pixels, uint32_t count, const FewColors* few);
+  /// After the last pixel: fvc() holds what was collected.
+  void end_frame();
+  /// After end_frame(), for schemes that look colours up.
+  void build_ccd();
+
+  /// Of a block in traversal order: indices() and largest(), see BlockContext. Precondition: ccd() is there.
+  void look_up(const uint32_t* pixels, bool uniform, const FewColors* few);
+
+  const Fvc& fvc() const { return fvc_; }
+  const Ccd* ccd() const { return has_ccd_ ? &ccd_ : nullptr; }  ///< null: none yet
+  const uint32_t* indices() const { return indices_.data(); }
+  const uint32_t* largest() const { return largest_.data(); }
+
+  bool wanted = false;  ///< a scheme looks colours up in its CCD
+
+ private:
+  Fvc fvc_;
+  std::unique_ptr<LfcCollector> fast_;  ///< collects in the place of fvc_ where it can, to the same result
+  Ccd ccd_;
+  CcdLookup lookup_;
+  bool has_ccd_ = false;
+  bool collecting_ = false;  ///< in this frame
+  std::array<uint32_t, kBlockPixels> indices_, largest_;
+};
+
+}  // namespace tilepress
