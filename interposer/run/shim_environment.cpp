@@ -1,5 +1,5 @@
-// Shim environment: finds out which driver libraries libglvnd would load, and puts ours in front of the
-// first.
+// Shim environment: finds out which driver libraries libglvnd would load, and puts one of ours in front of
+// each.
 #include "tilepress/shim_environment.h"
 
 #include <algorithm>
@@ -7,11 +7,14 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <vector>
 
 namespace tilepress {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr size_t kEglShims = 4;  // our EGL vendor library and its copies
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -99,23 +102,34 @@ bool add_shim_environment(std::map<std::string, std::string>& environment, ShimR
   }
   const fs::path folder = vendor_folder(preload_library);
   std::vector<std::string> files = egl_vendor_files();
-  const std::string egl_driver = files.empty() ? "" : library_of(files.front());
+  const bool has_driver =
+      std::any_of(files.begin(), files.end(), [](const auto& file) { return !library_of(file).empty(); });
   const std::vector<std::string> glx = glx_vendors();
   const std::string glx_wish = variable("__GLX_VENDOR_LIBRARY_NAME");
-  // With several vendors it is the display that decides which one serves it: only the first can be passed on.
+  // Where there are several vendors the preloaded library does, as far as it can.
   const bool certain = files.size() == 1 && glx.size() <= 1 && glx_wish.empty();
-  if (road == ShimRoad::kAuto && (folder.empty() || egl_driver.empty() || !certain)) return true;
-  if (folder.empty() || egl_driver.empty()) {
+  if (road == ShimRoad::kAuto && (folder.empty() || !has_driver || !certain)) return true;
+  if (folder.empty() || !has_driver) {
     error = folder.empty() ? "--via glvnd: libEGL_tilepress.so.0: not found beside " + preload_library
                            : "--via glvnd: no EGL vendor library is installed (libglvnd)";
     return false;
   }
-  std::string list = (folder / "egl_vendor.json").string();
-  for (size_t i = 1; i < files.size(); ++i) list += ":" + files[i];
+  std::string list;
+  std::set<std::string> drivers;  // libglvnd takes each once
+  for (const std::string& file : files) {
+    const std::string driver = library_of(file);
+    if (!driver.empty() && !drivers.insert(driver).second) continue;
+    const std::string number = drivers.size() > 1 ? "_" + std::to_string(drivers.size()) : "";
+    const bool ours = !driver.empty() && drivers.size() <= kEglShims;
+    if (ours) environment["TILEPRESS_EGL_VENDOR" + number] = driver;
+    list += (list.empty() ? "" : ":") + (ours ? (folder / ("egl_vendor" + number + ".json")).string() : file);
+  }
   environment["__EGL_VENDOR_LIBRARY_FILENAMES"] = list;
-  environment["TILEPRESS_EGL_VENDOR"] = egl_driver;
-  environment["__GLX_VENDOR_LIBRARY_NAME"] = "tilepress";
-  environment["TILEPRESS_GLX_VENDOR"] = !glx_wish.empty() ? glx_wish : glx.empty() ? "mesa" : glx.front();
+  // Of several GLX vendors the X server names one for each screen, and it is not for us to name another.
+  if (!glx_wish.empty() || glx.size() <= 1) {
+    environment["__GLX_VENDOR_LIBRARY_NAME"] = "tilepress";
+    environment["TILEPRESS_GLX_VENDOR"] = !glx_wish.empty() ? glx_wish : glx.empty() ? "mesa" : glx.front();
+  }
   const std::string libraries = variable("LD_LIBRARY_PATH");
   environment["LD_LIBRARY_PATH"] = libraries.empty() ? folder.string() : folder.string() + ":" + libraries;
   return true;

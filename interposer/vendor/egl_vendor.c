@@ -11,6 +11,15 @@
 #include "../preload/presenting.h"
 #include "../preload/real_dlsym.h"
 
+// libglvnd takes a library once: behind several of its vendor files stand as many copies, each with a driver
+// of its own. Where the first is told no driver it is Mesa's.
+#ifndef TP_DRIVER_VARIABLE
+#define TP_DRIVER_VARIABLE "TILEPRESS_EGL_VENDOR"
+#define TP_DRIVER_ELSE "libEGL_mesa.so.0"
+#else
+#define TP_DRIVER_ELSE NULL
+#endif
+
 static void* (*driver_get_proc_address)(const char* name);
 
 static void* get_proc_address(const char* name) {
@@ -24,9 +33,9 @@ static void* get_proc_address(const char* name) {
 __attribute__((visibility("default"))) EGLBoolean __egl_Main(uint32_t version, const __EGLapiExports* exports,
                                                              __EGLvendorInfo* vendor,
                                                              __EGLapiImports* imports) {
-  const char* driver_name = getenv("TILEPRESS_EGL_VENDOR");
-  void* driver =
-      dlopen(driver_name != NULL && *driver_name != 0 ? driver_name : "libEGL_mesa.so.0", RTLD_LAZY);
+  const char* driver_name = getenv(TP_DRIVER_VARIABLE);
+  if (driver_name == NULL || *driver_name == 0) driver_name = TP_DRIVER_ELSE;
+  void* driver = driver_name != NULL ? dlopen(driver_name, RTLD_LAZY) : NULL;
   if (driver == NULL || tp_real_dlsym() == NULL) return EGL_FALSE;
   __PFNEGLMAINPROC driver_main = (__PFNEGLMAINPROC)tp_real_dlsym()(driver, __EGL_MAIN_PROTO_NAME);
   if (driver_main == NULL || !driver_main(version, exports, vendor, imports)) return EGL_FALSE;
