@@ -14,7 +14,7 @@ constexpr uint32_t kFirst = 1000000;
 constexpr unsigned kFrames = 4;
 
 std::map<std::string, std::string> all_targets(Road road) {
-  std::map<std::string, std::string> environment = {{"TILEPRESS_TARGETS", "all"}};
+  std::map<std::string, std::string> environment = {{"TILEPRESS_TARGETS", "all"}, {"DISPLAY", own_display()}};
   if (road != Road::kGlvnd) environment["LD_PRELOAD"] = TILEPRESS_PRELOAD_GL;
   return environment;
 }
@@ -22,7 +22,8 @@ std::map<std::string, std::string> all_targets(Road road) {
 ShimRun run_scene(ShimTest& test, const char* api, const char* scene, Road road) {
   const ShimRun run = test.run({TILEPRESS_FRAMEBUFFER_SCENES, api, scene}, all_targets(road));
   EXPECT_TRUE(run.process.exited_with(0)) << scene;
-  const ProcessResult without = run_process({TILEPRESS_FRAMEBUFFER_SCENES, api, scene}, {{"LD_PRELOAD", ""}});
+  const ProcessResult without = run_process({TILEPRESS_FRAMEBUFFER_SCENES, api, scene},
+                                            {{"LD_PRELOAD", ""}, {"DISPLAY", own_display()}});
   EXPECT_EQ(run.process.out, without.out) << scene;
   EXPECT_EQ(run.process.err, without.err) << scene;
   return run;
@@ -121,7 +122,9 @@ TEST_P(Targets, WhatIsInvalidatedIsNotCaptured) {
 INSTANTIATE_TEST_SUITE_P(Apis, Targets,
                          ::testing::Values(Case{"es2", Road::kPreload}, Case{"es3", Road::kPreload},
                                            Case{"gl", Road::kPreload}, Case{"es3", Road::kGlvnd},
-                                           Case{"gl", Road::kGlvnd}, Case{"es3", Road::kBoth}),
+                                           Case{"gl", Road::kGlvnd}, Case{"es3", Road::kBoth},
+                                           Case{"glx", Road::kPreload}, Case{"glx", Road::kGlvnd},
+                                           Case{"glx", Road::kBoth}),
                          name_of_case);
 
 TEST(TargetFormats, FloatImagesAreCountedAsUnsupported) {
@@ -167,7 +170,8 @@ TEST_P(MultisampledTargets, AreWhatTheProgramItselfResolvesThemTo) {
 INSTANTIATE_TEST_SUITE_P(Apis, MultisampledTargets,
                          ::testing::Values(Case{"es3", Road::kPreload}, Case{"gl", Road::kPreload},
                                            Case{"es3", Road::kGlvnd}, Case{"gl", Road::kGlvnd},
-                                           Case{"es3", Road::kBoth}, Case{"gl", Road::kBoth}),
+                                           Case{"es3", Road::kBoth}, Case{"gl", Road::kBoth},
+                                           Case{"glx", Road::kPreload}, Case{"glx", Road::kGlvnd}),
                          name_of_case);
 
 TEST(TargetFormats, AMultisampledRenderbufferIsASurfaceBesideASingleSampledOne) {

@@ -1,10 +1,11 @@
 /* framebuffer_scenes API SCENE [FRAMES]: programs that draw to framebuffer objects of their own. API: es2,
- * es3, gl. Each scene is a function below; every image holds the known picture, so that the tests know its
- * pixels. */
+ * es3, gl (by EGL), glx. Each scene is a function below; every image holds the known picture, so that the
+ * tests know its pixels. */
 #define GL_GLEXT_PROTOTYPES
 #include "covering_triangle.h"
 #include "egl_session.h"
 
+#include <GL/glx.h>
 #include <GLES3/gl32.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,6 +16,8 @@ static EGLDisplay display;
 static EGLSurface window;
 static int frames = 4;
 static int es2;
+static Display* x_display; /* with GLX, else null */
+static Window x_window;
 
 static GLuint make_texture(GLenum internal, int width, int height) {
   GLuint name;
@@ -42,7 +45,56 @@ static void draw(unsigned frame, int width, int height) {
 static void draw_window_and_swap(unsigned frame) {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   draw(frame, kWidth, kHeight);
-  if (!eglSwapBuffers(display, window)) exit(8);
+  if (x_display != NULL)
+    glXSwapBuffers(x_display, x_window);
+  else if (!eglSwapBuffers(display, window))
+    exit(8);
+}
+
+/* The same window and context by GLX, in place of EGL's. */
+static void open_glx(void) {
+  x_display = XOpenDisplay(NULL);
+  if (x_display == NULL) exit(9);
+  const int wanted[] = {GLX_RED_SIZE,     8,    GLX_GREEN_SIZE, 8, GLX_BLUE_SIZE, 8, GLX_ALPHA_SIZE, 8,
+                        GLX_DOUBLEBUFFER, True, GLX_SAMPLES,    0, None};
+  int count = 0;
+  GLXFBConfig* configs = glXChooseFBConfig(x_display, DefaultScreen(x_display), wanted, &count);
+  XVisualInfo* visual = count > 0 ? glXGetVisualFromFBConfig(x_display, configs[0]) : NULL;
+  if (visual == NULL) exit(77);
+  const Window root = DefaultRootWindow(x_display);
+  XSetWindowAttributes attributes = {.colormap = XCreateColormap(x_display, root, visual->visual, AllocNone)};
+  x_window = XCreateWindow(x_display, root, 0, 0, kWidth, kHeight, 0, visual->depth, InputOutput,
+                           visual->visual, CWColormap | CWBorderPixel, &attributes);
+  XMapWindow(x_display, x_window);
+  XSync(x_display, False);
+  GLXContext context = glXCreateNewContext(x_display, configs[0], GLX_RGBA_TYPE, NULL, True);
+  if (!glXMakeCurrent(x_display, x_window, context)) exit(9);
+}
+
+/* A second context that shares nothing, made current by turns: the first turns away by glXMakeCurrent. */
+static void glx_contexts(void) {
+  int id = 0, count = 0;
+  GLXContext context[2] = {glXGetCurrentContext()};
+  glXQueryContext(x_display, context[0], GLX_FBCONFIG_ID, &id);
+  const int wanted[] = {GLX_FBCONFIG_ID, id, None};
+  GLXFBConfig* configs = glXChooseFBConfig(x_display, DefaultScreen(x_display), wanted, &count);
+  if (count == 0) exit(77);
+  context[1] = glXCreateNewContext(x_display, configs[0], GLX_RGBA_TYPE, NULL, True);
+  GLuint framebuffer[2];
+  for (int i = 0; i < 2; ++i) {
+    glXMakeCurrent(x_display, x_window, context[i]);
+    framebuffer[i] = make_framebuffer(make_texture(GL_RGBA8, 24 + 8 * i, 24));
+  }
+  for (unsigned frame = 0; frame < (unsigned)frames; ++frame)
+    for (int i = 0; i < 2; ++i) {
+      if (i == 0)
+        glXMakeCurrent(x_display, x_window, context[i]);
+      else
+        glXMakeContextCurrent(x_display, x_window, x_window, context[i]);
+      glBindFramebuffer(GL_FRAMEBUFFER, framebuffer[i]);
+      draw(frame, 24 + 8 * i, 24);
+    }
+  draw_window_and_swap(0);
 }
 
 /* One texture, then the window. The framebuffer is bound twice, which turns away from nothing. */
@@ -282,14 +334,19 @@ int main(int argc, char** argv) {
   if (argc > 3) frames = atoi(argv[3]);
   const channel_bits bits = {8, 8, 8, 8, 0};
   es2 = strcmp(argv[1], "es2") == 0;
-  const int desktop = strcmp(argv[1], "gl") == 0;
-  display = open_surfaceless();
-  EGLConfig config = exact_config(display, bits);
-  window = make_pbuffer(display, config, kWidth, kHeight);
-  if (desktop) eglBindAPI(EGL_OPENGL_API);
-  EGLContext context = desktop ? eglCreateContext(display, config, EGL_NO_CONTEXT, NULL)
-                               : make_context(display, config, es2 ? 2 : 3);
-  if (!eglMakeCurrent(display, window, window, context)) return 9;
+  const int desktop = strcmp(argv[1], "gl") == 0, glx = strcmp(argv[1], "glx") == 0;
+  EGLConfig config = NULL;
+  if (glx) {
+    open_glx();
+  } else {
+    display = open_surfaceless();
+    config = exact_config(display, bits);
+    window = make_pbuffer(display, config, kWidth, kHeight);
+    if (desktop) eglBindAPI(EGL_OPENGL_API);
+    EGLContext context = desktop ? eglCreateContext(display, config, EGL_NO_CONTEXT, NULL)
+                                 : make_context(display, config, es2 ? 2 : 3);
+    if (!eglMakeCurrent(display, window, window, context)) return 9;
+  }
   if (strcmp(scene, "single") == 0) single();
   if (strcmp(scene, "mrt") == 0) mrt();
   if (strcmp(scene, "pingpong") == 0) pingpong();
@@ -300,7 +357,8 @@ int main(int argc, char** argv) {
   if (strcmp(scene, "parts") == 0) parts();
   if (strcmp(scene, "invalidate") == 0) invalidate();
   if (strcmp(scene, "formats") == 0) formats();
-  if (strcmp(scene, "contexts") == 0) contexts(config, es2 ? 2 : 3);
+  if (strcmp(scene, "contexts") == 0 && glx) glx_contexts();
+  if (strcmp(scene, "contexts") == 0 && !glx) contexts(config, es2 ? 2 : 3);
   if (strcmp(scene, "finish") == 0 || strcmp(scene, "flush") == 0 || strcmp(scene, "readpixels") == 0)
     headless(scene);
   if (strcmp(scene, "pbuffer") == 0) pbuffer();
