@@ -1,7 +1,9 @@
 /* Draws the known picture into the current framebuffer with four GL functions. */
 #pragma once
 
+#ifndef EPOXY_GL_H /* which declares all of it, and minds a second */
 #include <GLES2/gl2.h>
+#endif
 
 #include "known_picture.h"
 

@@ -4,7 +4,7 @@
 #include <epoxy/gl.h>
 #include <stdlib.h>
 
-#include "known_picture.h"
+#include "draw_known_picture.h"
 
 int main(int argc, char** argv) {
   if (argc < 4) return 9;
@@ -31,16 +31,9 @@ int main(int argc, char** argv) {
   EGLSurface surface = eglCreatePbufferSurface(display, config, size);
   if (!eglMakeCurrent(display, surface, surface, eglCreateContext(display, config, EGL_NO_CONTEXT, wish)))
     return 9;
+  const draw_functions gl = {glClearColor, glScissor, glEnable, glClear};
   for (int frame = 0; frame < frames; ++frame) {
-    known_box box[KNOWN_BOXES];
-    known_picture((unsigned)frame, width, height, box);
-    glEnable(GL_SCISSOR_TEST);
-    for (int i = 0; i < KNOWN_BOXES; ++i) {
-      const unsigned char* c = box[i].color;
-      glClearColor((float)c[0] / 255.0f, (float)c[1] / 255.0f, (float)c[2] / 255.0f, (float)c[3] / 255.0f);
-      glScissor(box[i].x, height - box[i].y - box[i].height, box[i].width, box[i].height);
-      glClear(GL_COLOR_BUFFER_BIT);
-    }
+    draw_known_picture(&gl, (unsigned)frame, width, height);
     eglSwapBuffers(display, surface);
   }
   return 0;

@@ -8,41 +8,21 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from live_checks import end_with_faults, expect, start_display, wait_for  # noqa: E402
 from picture_files import read_pgm, read_png  # noqa: E402
 
 TILEPRESS, PROGRAM = sys.argv[1:3]
 # The window's drivers leave memory behind; what is ours to free is looked at in the unit tests.
 QUIET = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
-faults = []
-
-
-def expect(condition, text):
-    if not condition:
-        faults.append(text)
-
-
-def wait_for(what, seconds=90):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        found = what()
-        if found:
-            return found
-        time.sleep(0.05)
-    return None
 
 
 class Display:
     def __enter__(self):
-        reader, writer = os.pipe()
-        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "1400x1000x24", "-nolisten", "tcp", "-noreset"],
-                                       pass_fds=[writer], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        os.close(writer)
-        with os.fdopen(reader) as number:
-            self.environment = dict(QUIET, DISPLAY=":" + number.readline().strip())
+        self.server, number = start_display("1400x1000")
+        self.environment = dict(QUIET, DISPLAY=number)
         return self
 
     def __exit__(self, *_):
@@ -200,9 +180,7 @@ def main():
             own = folder / part.__name__
             own.mkdir()
             part(display, own)
-    for fault in faults:
-        print("FAULT:", fault)
-    sys.exit(1 if faults else 0)
+    end_with_faults()
 
 
 if __name__ == "__main__":

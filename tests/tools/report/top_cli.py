@@ -6,35 +6,12 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from live_checks import end_with_faults, expect, start_display, wait_for  # noqa: E402
+
 TILEPRESS = sys.argv[1]
-faults = []
-
-
-def expect(condition, text):
-    if not condition:
-        faults.append(text)
-
-
-def wait_for(what, seconds=60):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        found = what()
-        if found:
-            return found
-        time.sleep(0.05)
-    return None
-
-
-def start_display():
-    reader, writer = os.pipe()
-    server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "640x480x24", "-nolisten", "tcp", "-noreset"], pass_fds=[writer],
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    os.close(writer)
-    with os.fdopen(reader) as number:
-        return server, ":" + number.readline().strip()
 
 
 def top(*arguments):
@@ -46,7 +23,7 @@ def main():
         folder = Path(name)
         nothing = top("--once", folder)
         expect(nothing.returncode == 3 and "no running capture" in nothing.stderr, f"nothing runs: {nothing}")
-        server, display = start_display()
+        server, display = start_display("640x480")
         program = subprocess.Popen([TILEPRESS, "run", "-q", "-o", folder / "out", "-s", "vdcp", "-s", "ras", "--", "glmark2-es2", "--size", "96x64",
                                     "-b", "build:duration=600"], env=dict(os.environ, DISPLAY=display), stdout=subprocess.DEVNULL)
         try:
@@ -80,9 +57,7 @@ def main():
             server.wait()
         expect(not list((folder / "out").glob("*/live")), "a killed program's live page is left behind")
         expect(top("--once", folder).returncode == 3, "an ended capture still runs")
-    for fault in faults:
-        print("FAULT:", fault)
-    sys.exit(1 if faults else 0)
+    end_with_faults()
 
 
 if __name__ == "__main__":
