@@ -196,6 +196,8 @@ void ColorDistribution::note_sizes(std::vector<uint32_t>& next, Grouped& out) {
 }
 
 void ColorDistribution::distribute(const PixelPlane& frame, std::vector<uint32_t>& table, Grouped& out) {
+  const size_t pixels = size_t{frame.width()} * frame.height();
+  out.values.reserve(pixels);  // as much as is ever needed, not the double of what was
   std::fill(table.begin(), table.end(), 0u);
   uint32_t* __restrict next = table.data();
   if (!has_runs(frame)) {
@@ -210,6 +212,7 @@ void ColorDistribution::distribute(const PixelPlane& frame, std::vector<uint32_t
   for (uint32_t y = 0; y < frame.height(); ++y)
     for_each_run(frame, y, [next](uint32_t color, uint32_t) { ++next[group_of(color)]; });
   note_sizes(table, out);
+  out.weights.reserve(std::max(out.values.size(), pixels / 4 * 3));
   out.weights.resize(out.values.size());
   uint16_t* __restrict values = out.values.data();
   uint8_t* __restrict weights = out.weights.data();
