@@ -25,7 +25,7 @@ size_t largest_table(size_t pixels) {
 }  // namespace
 
 bool FrameMeter::take(uint32_t color, uint32_t count) {
-  ColorHistogram::Entry& entry = recent_[(color * 0x9E3779B1u) >> 23];
+  ColorHistogram::Entry& entry = recent_[(color * 0x9E3779B1u) >> 21];
   if (entry.color == color) {
     entry.count += count;
     return true;

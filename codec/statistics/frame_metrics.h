@@ -41,7 +41,7 @@ class FrameMeter {
 
   ColorHistogram now_, before_;
   /// Most colours come back soon: here they wait before they go to the large table.
-  std::array<ColorHistogram::Entry, 512> recent_{};
+  std::array<ColorHistogram::Entry, 2048> recent_{};
   bool counting_ = false;  ///< into now_
   bool hashed_ = false;    ///< the colours measured last are in now_; otherwise distributed
   bool many_ = false;      ///< colours are to be expected
