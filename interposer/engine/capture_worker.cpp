@@ -112,7 +112,10 @@ bool CaptureWorker::create_directory() {
 }
 
 void CaptureWorker::process_in_turn(const CapturedFrame& frame) {
-  if (options_.on_full == OnFull::kBlock && pace_.yields(queue_.pending())) {
+  // Memory is had for the first frame of a surface: always on one thread, or it would come from two heaps.
+  const auto found = surfaces_.find(frame.window);
+  const bool first = found == surfaces_.end() || found->second.number != frame.surface;
+  if (options_.on_full == OnFull::kBlock && !first && pace_.yields(queue_.pending())) {
     const YieldingThread::Turn turn = yielding_.run([&] { process(frame); });
     pace_.yielded(turn.wall_ns, turn.cpu_ns, queue_.full());
   } else {
