@@ -43,7 +43,7 @@ std::string color_text(uint32_t color, PixelFormat format) {
   const FormatTraits& bits = traits(format);
   uint32_t value[4];
   for (int c = 0; c < 4; ++c) value[c] = channel(bits, color, c);
-  char text[16];
+  char text[40];  // what the compiler cannot rule out fits too
   if (format == PixelFormat::kRgb10a2) {
     std::snprintf(text, sizeof text, "#%03X%03X%03X%X", value[0], value[1], value[2], value[3]);
     return text;

@@ -2,6 +2,7 @@
 #include "shim_process.h"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -187,6 +188,31 @@ std::vector<uint8_t> ShimTest::dump(uint32_t surface, uint64_t frame) const {
   const std::string name = std::to_string(surface) + "-" + std::to_string(frame) + ".rgba";
   const std::string bytes = read_file(folder_.path() / "dump" / name);
   return {bytes.begin(), bytes.end()};
+}
+
+ShimRun soak_windows(const char* api, std::map<std::string, std::string> environment) {
+  environment.insert({{"TILEPRESS_SCHEME", "vdcp"},
+                      {"TILEPRESS_DUMP", ""},
+                      {"LP_NUM_THREADS", "0"},
+                      {"DISPLAY", own_display()}});
+  ShimTest test;
+  ShimRun run = test.run({TILEPRESS_WINDOW_SOAK, api, "400"}, environment);
+  EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
+  long early_kib = 0, late_kib = 0;
+  int early[2] = {}, late[2] = {1, 1}, texture = 0;
+  EXPECT_EQ(sscanf(run.process.out.c_str(),
+                   "%ld KiB, %d descriptors, %d threads\n%ld KiB, %d descriptors, %d threads\ntexture %d",
+                   &early_kib, &early[0], &early[1], &late_kib, &late[0], &late[1], &texture),
+            7)
+      << run.process.out;
+  // 320 windows and 1280 frames lie between: a frame lost of each window (8 KiB at least) would be 2.5 MiB, a
+  // pixel buffer of each frame 10 MiB, a context of each window (more than 100 KiB) 32 MiB. After the first
+  // 80 the shim knows as many windows as it ever does.
+  EXPECT_LT(late_kib - early_kib, 2000) << run.process.out;
+  EXPECT_EQ(late[0], early[0]) << run.process.out;
+  EXPECT_EQ(late[1], early[1]) << run.process.out;
+  EXPECT_EQ(texture, 1);
+  return run;
 }
 
 }  // namespace tilepress::testing

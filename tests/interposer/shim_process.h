@@ -68,4 +68,7 @@ class ShimTest {
   ScratchFolder folder_;
 };
 
+/// 400 windows, each resized, of four frames each, by "egl" or "glx": expects that nothing of them is left.
+ShimRun soak_windows(const char* api, std::map<std::string, std::string> environment);
+
 }  // namespace tilepress::testing
