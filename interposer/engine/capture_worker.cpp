@@ -111,11 +111,15 @@ bool CaptureWorker::create_directory() {
   return true;
 }
 
+CaptureWorker::Surface* CaptureWorker::known_surface(const CapturedFrame& frame) {
+  const auto found = surfaces_.find(frame.window);
+  return found != surfaces_.end() && found->second.number == frame.surface ? &found->second : nullptr;
+}
+
 void CaptureWorker::process_in_turn(const CapturedFrame& frame) {
   // Memory is had for the first frame of a surface: always on one thread, or it would come from two heaps.
-  const auto found = surfaces_.find(frame.window);
-  const bool first = found == surfaces_.end() || found->second.number != frame.surface;
-  if (options_.on_full == OnFull::kBlock && !first && pace_.yields(queue_.pending())) {
+  const bool known = known_surface(frame) != nullptr;
+  if (options_.on_full == OnFull::kBlock && known && pace_.yields(queue_.pending())) {
     const YieldingThread::Turn turn = yielding_.run([&] { process(frame); });
     pace_.yielded(turn.wall_ns, turn.cpu_ns, queue_.full());
   } else {
@@ -125,13 +129,13 @@ void CaptureWorker::process_in_turn(const CapturedFrame& frame) {
 }
 
 void CaptureWorker::process(const CapturedFrame& frame) {
-  auto found = surfaces_.find(frame.window);
-  if (found == surfaces_.end() || found->second.number != frame.surface) {
+  Surface* surface = known_surface(frame);
+  if (surface == nullptr) {
     if (!append_surface(frame)) return give_up(writer_.path() + "/surfaces.csv: cannot be written");
-    found = surfaces_
-                .insert_or_assign(frame.window,
-                                  Surface{frame.surface, SurfaceEngine(options_.schemes, options_.model)})
-                .first;
+    surface = &surfaces_
+                   .insert_or_assign(frame.window,
+                                     Surface{frame.surface, SurfaceEngine(options_.schemes, options_.model)})
+                   .first->second;
   }
   statistics_.frame = frame.frame;
   statistics_.surface = frame.surface;
@@ -140,8 +144,8 @@ void CaptureWorker::process(const CapturedFrame& frame) {
   BlockBits* bits = pictures_.bits_for(frame.frame);
   const bool watched = frame.role == SurfaceRole::kPresented && live_.picture_wanted();
   if (watched && bits == nullptr) bits = &watched_bits_;
-  found->second.engine.note_block_bits(bits);
-  found->second.engine.process(frame.view, statistics_);
+  surface->engine.note_block_bits(bits);
+  surface->engine.process(frame.view, statistics_);
   if (!pictures_.write(statistics_, frame.view)) return give_up(pictures_.error());
   dump_frame(frame, log_);
   if (!append_present(frame)) return give_up(writer_.path() + "/presents.csv: cannot be written");

@@ -54,6 +54,8 @@ class CaptureWorker {
   };
   void run();
   bool create_directory();
+  /// Null before its first frame.
+  Surface* known_surface(const CapturedFrame& frame);
   void process_in_turn(const CapturedFrame& frame);
   void process(const CapturedFrame& frame);
   bool append_present(const CapturedFrame& frame);

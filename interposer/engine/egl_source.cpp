@@ -172,28 +172,14 @@ class EglSource final : public PresentSource {
 
   void trim(void* display) override { trim_later(groups_.of_display(display), reader_); }
 
-  GlStrings strings() const override {
-    const auto text = [&](GLenum name) {
-      const GLubyte* value = gl_.GetString(name);
-      return std::string(value != nullptr ? reinterpret_cast<const char*>(value) : "");
-    };
-    return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)};
-  }
   const char* api() const override { return "EGL"; }
 
  private:
-  static bool fail(std::string& reason, const char* text) {
-    reason = text;
-    return false;
-  }
-
   /// The program has destroyed its context, which lives on until something else is made current.
   bool context_is_destroyed(EGLDisplay display) const {
     EGLint id = 0;
     return !egl_.QueryContext(display, egl_.GetCurrentContext(), EGL_CONFIG_ID, &id);
   }
-
-  enum class Attempt { kRead, kNotBound, kContextLost };
 
   Attempt read_privately(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
                          std::string& reason) {

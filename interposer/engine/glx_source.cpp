@@ -159,21 +159,9 @@ class GlxSource final : public PresentSource {
       }
   }
 
-  GlStrings strings() const override {
-    const auto text = [&](GLenum name) {
-      const GLubyte* value = gl_.GetString(name);
-      return std::string(value != nullptr ? reinterpret_cast<const char*>(value) : "");
-    };
-    return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)};
-  }
   const char* api() const override { return "GLX"; }
 
  private:
-  static bool fail(std::string& reason, const char* text) {
-    reason = text;
-    return false;
-  }
-
   /// The program has destroyed its context, which lives on until something else is made current, without a
   /// number.
   bool context_is_destroyed() const {
@@ -204,8 +192,6 @@ class GlxSource final : public PresentSource {
              config->srgb_capable && glx_.GetCurrentContext() != nullptr && is_srgb()};
     return true;
   }
-
-  enum class Attempt { kRead, kNotBound, kContextLost };
 
   Attempt read_privately(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
                          std::string& reason) {

@@ -63,13 +63,6 @@ class OsmesaSource final : public PresentSource {
   }
   void release(void*) override {}
 
-  GlStrings strings() const override {
-    const auto text = [&](GLenum name) {
-      const GLubyte* value = gl_.GetString(name);
-      return std::string(value != nullptr ? reinterpret_cast<const char*>(value) : "");
-    };
-    return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)};
-  }
   const char* api() const override { return "OSMesa"; }
 
  private:

@@ -48,8 +48,22 @@ class PresentSource {
   /// The program is about to destroy a surface of `display`: pixel buffers that are not in use go.
   virtual void trim(void*) {}
   /// Of the program's own context, which is current.
-  virtual GlStrings strings() const = 0;
+  GlStrings strings() const {
+    const auto text = [&](GLenum name) {
+      const GLubyte* value = gl().GetString(name);
+      return std::string(value != nullptr ? reinterpret_cast<const char*>(value) : "");
+    };
+    return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)};
+  }
   virtual const char* api() const = 0;
+
+ protected:
+  /// What came of a read in a private context.
+  enum class Attempt { kRead, kNotBound, kContextLost };
+  static bool fail(std::string& reason, const char* text) {
+    reason = text;
+    return false;
+  }
 };
 
 /// Null if the library that holds `present.real` lacks a function the readback needs.
