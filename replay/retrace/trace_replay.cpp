@@ -180,8 +180,7 @@ void TraceReplay::run(const std::atomic<bool>& stop) {
   for (size_t i = 0; i < roads.size(); ++i) {
     const std::string folder = partial_path_ + "/" + std::to_string(i);
     options_.explain(input_.path + ": " + roads[i].name() + " (" + roads[i].why + ")");
-    Attempt attempt{roads[i], folder,
-                    read_ ? attempt_road(roads[i], folder, stop) : attempt_and_read(roads[i], folder, stop)};
+    Attempt attempt{roads[i], folder, attempt_road(roads[i], folder, stop)};
     if (!read_) break;
     // The first road is the same for all: which others there are, the trace tells.
     roads = replay_roads(trace_.api, options_.retracer, options_.display, error);
@@ -224,8 +223,9 @@ AttemptOutcome TraceReplay::attempt_road(const ReplayRoad& road, const std::stri
                                          const std::atomic<bool>& stop) {
   AttemptOrder order;
   order.folder = folder;
+  order.trace_path = absolute_path(input_.path);
   order.frames_wanted = result_.frames_wanted;
-  for (const TraceSurface& surface : trace_.surfaces) {
+  for (const TraceSurface& surface : trace_.surfaces) {  // none while the trace is not read
     order.width = std::max(order.width, surface.width);
     order.height = std::max(order.height, surface.height);
     const auto last = run_options_.frames.last();
@@ -233,21 +233,12 @@ AttemptOutcome TraceReplay::attempt_road(const ReplayRoad& road, const std::stri
     // Rows are counted, and these would be counted with the rest.
     if (run_options_.all_targets || run_options_.triggers != 0) order.may_stop_early = false;
   }
-  order.trace_path = absolute_path(input_.path);
-  return run_attempt(
-      road, order, options_, run_options_, [&stop] { return stop.load(); }, frames_done_);
-}
-
-AttemptOutcome TraceReplay::attempt_and_read(const ReplayRoad& road, const std::string& folder,
-                                             const std::atomic<bool>& stop) {
   std::atomic<bool> hopeless{false};
-  std::thread reader([&] { hopeless = !read_trace(); });
-  AttemptOrder order;
-  order.folder = folder;
-  order.trace_path = absolute_path(input_.path);
+  std::thread reader;
+  if (!read_) reader = std::thread([&] { hopeless = !read_trace(); });
   const AttemptOutcome outcome = run_attempt(
       road, order, options_, run_options_, [&] { return stop || hopeless; }, frames_done_);
-  reader.join();
+  if (reader.joinable()) reader.join();
   if (hopeless) frames_wanted_ = frames_done_ = 0;
   return outcome;
 }

@@ -95,10 +95,9 @@ class TraceReplay {
   bool keep_finished_run();
   void fail(std::string reason, ReplayStatus status = ReplayStatus::kFailed);
   std::string fingerprint() const;
+  /// Reads the trace meanwhile, unless it is read.
   AttemptOutcome attempt_road(const ReplayRoad& road, const std::string& folder,
                               const std::atomic<bool>& stop);
-  AttemptOutcome attempt_and_read(const ReplayRoad& road, const std::string& folder,
-                                  const std::atomic<bool>& stop);
   void find_run(Attempt& attempt);
   void judge(const Attempt& attempt);
   void settle(const Attempt& attempt);
