@@ -14,21 +14,24 @@ uint32_t round_up_to_block(uint32_t pixels) {
   return (pixels + kBlockSide - 1) / kBlockSide * kBlockSide;
 }
 
-/// Returns how many words of `target` were not the same before.
-uint64_t copy_row(const std::byte* source, const SurfaceView& view, uint32_t* target) {
+/// Returns how many words of `target` were not the same before; see Kernels::replace_row.
+uint32_t copy_row(const std::byte* source, const SurfaceView& view, uint32_t* target,
+                  uint8_t* changed_blocks) {
   if (view.format == PixelFormat::kRgb565) {
-    uint64_t changed = 0;
+    uint32_t changed = 0;
     for (uint32_t x = 0; x < view.width; ++x) {
       uint16_t word;
       std::memcpy(&word, source + size_t{x} * 2, 2);
-      changed += target[x] != word;
+      if (target[x] == word) continue;
       target[x] = word;
+      ++changed;
+      if (changed_blocks != nullptr) changed_blocks[x / kBlockSide] = 1;
     }
     return changed;
   }
   const bool eight_bit = view.format == PixelFormat::kRgba8 || view.format == PixelFormat::kRgbx8;
   return kernels().replace_row(source, view.width, eight_bit && view.order == ByteOrder::kBgra,
-                               view.format == PixelFormat::kRgbx8 ? 0xFF000000u : 0u, target);
+                               view.format == PixelFormat::kRgbx8 ? 0xFF000000u : 0u, target, changed_blocks);
 }
 
 }  // namespace
@@ -44,11 +47,14 @@ void PixelPlane::reshape(const SurfaceView& view) {
   words_.resize(size_t{stride_} * padded_height_);
 }
 
-uint64_t PixelPlane::assign_rows(const SurfaceView& view, uint32_t begin, uint32_t end) {
+uint64_t PixelPlane::assign_rows(const SurfaceView& view, uint32_t begin, uint32_t end,
+                                 uint8_t* changed_blocks) {
   uint64_t changed = 0;
   for (uint32_t y = begin; y < std::min(end, height_); ++y) {
     uint32_t* target = words_.data() + size_t{y} * stride_;
-    changed += copy_row(view.row(y), view, target);
+    uint8_t* blocks =
+        changed_blocks == nullptr ? nullptr : changed_blocks + size_t{y / kBlockSide} * blocks_x();
+    changed += copy_row(view.row(y), view, target, blocks);
     std::fill(target + width_, target + stride_, target[width_ - 1]);
   }
   for (uint32_t y = height_; y < end; ++y)

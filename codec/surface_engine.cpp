@@ -32,6 +32,21 @@ struct Lane {
   SchemeStatistics last;  ///< what the block measured last added
 };
 
+/// Adds the time of a step to that of the frame.
+class StepTime {
+ public:
+  explicit StepTime(FrameStatistics& frame) : frame_(frame) {}
+  ~StepTime() {
+    const auto time = std::chrono::steady_clock::now() - begin_;
+    frame_.encode_ns +=
+        static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(time).count());
+  }
+
+ private:
+  FrameStatistics& frame_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace
 
 struct SurfaceEngine::State {
@@ -40,7 +55,9 @@ struct SurfaceEngine::State {
   std::deque<Collector> collectors;  ///< with frame_metrics the first is the default, theirs
   std::vector<Lane> lanes;
   PixelPlane now;
-  uint64_t changed = 0;  ///< pixels, since the frame before
+  uint64_t changed = 0;                 ///< pixels, since the frame before
+  std::vector<uint8_t> changed_blocks;  ///< raster order; 0: as in the frame before. Kept if needed
+  std::vector<uint16_t> ras_known, ras_ycocg_known;  ///< bits of each block, as it was visited last
   FrameMeter meter;
   BlockCheck check;
   uint64_t ordinal = 0;
@@ -66,23 +83,25 @@ struct SurfaceEngine::State {
   std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere
   BlockBits* block_bits = nullptr;
   uint32_t burst_round = 0, burst_shift = 0;  ///< burst_bits is a power of two
+  SurfaceView frame;                          ///< at hand, from begin() to the last advance()
+  FrameStatistics* out = nullptr;
+  uint32_t next_row = 0;  ///< of blocks
   void open(const FormatTraits& format);
   Collector& collector_for(const FvcConfig& config, const FormatTraits& format);
-  void begin_frame(FrameStatistics& out);
-  void visit_block(uint32_t bx, uint32_t by, const FormatTraits& format, FrameStatistics& out);
+  void begin_frame();
+  void take_rows(uint32_t begin, uint32_t end);
+  void advance();
+  void visit_block(uint32_t bx, uint32_t by, const FormatTraits& format);
   bool repeat_block(uint32_t bx, uint32_t by, const uint32_t* top_left);
-  void settle_repeats(FrameStatistics& out);
+  void settle_repeats();
   uint32_t pixels_inside(uint32_t bx, uint32_t by) const;
   void collect_solid(uint32_t bx, uint32_t by, uint32_t color);
   void collect(const BlockContext& block);
   void settle_run();
   bool split_few(const uint32_t* pixels);
   uint32_t ras_bits(const BlockContext& block, const uint32_t* top_left, const FormatTraits& format,
-                    bool ycocg) const {
-    return block.uniform ? ras_uniform_bits(format, ycocg)
-                         : ras_stream_bits(top_left, now.stride(), format, ycocg);
-  }
-  void end_frame(FrameStatistics& out);
+                    bool ycocg);
+  void end_frame();
 };
 
 Collector& SurfaceEngine::State::collector_for(const FvcConfig& config, const FormatTraits& format) {
@@ -117,11 +136,24 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
   }
 }
 
-void SurfaceEngine::State::begin_frame(FrameStatistics& out) {
+void SurfaceEngine::State::begin_frame() {
+  now.reshape(frame);
+  if (!opened) open(traits(frame.format));
+  out->width = frame.width;
+  out->height = frame.height;
+  out->format = frame.format;
+  out->warmup = ordinal == 0;
+  out->encode_ns = 0;
+  next_row = 0;
+  changed = 0;
+  if (needs_ras) ras_known.resize(now.blocks());
+  if (needs_ras_ycocg) ras_ycocg_known.resize(now.blocks());
+  if (needs_ras || needs_ras_ycocg) changed_blocks.assign(now.blocks(), has_before ? 0 : 1);
+  if (needs_whole_frame) take_rows(0, now.blocks_y());
   for (Collector& collector : collectors) collector.begin_frame(ordinal);
   last.solid = false;
   if (options.frame_metrics) meter.begin_frame(size_t{now.width()} * now.height());
-  out.schemes.assign(lanes.size(), SchemeStatistics{});
+  out->schemes.assign(lanes.size(), SchemeStatistics{});
   if (block_bits != nullptr) {
     block_bits->blocks_x = now.blocks_x();
     block_bits->blocks_y = now.blocks_y();
@@ -132,16 +164,22 @@ void SurfaceEngine::State::begin_frame(FrameStatistics& out) {
   for (size_t i = 0; i < lanes.size(); ++i) {
     Lane& lane = lanes[i];
     const Ccd* ccd = lane.collector != nullptr ? lane.collector->ccd() : nullptr;
-    const FrameContext frame{.plane = now, .ordinal = ordinal, .ccd = ccd};
-    lane.encoder->begin_frame(frame);
-    if (!surfaces.empty()) lane.store.begin_frame(specs[i], options, frame, *lane.encoder, surfaces[i]);
+    const FrameContext context{.plane = now, .ordinal = ordinal, .ccd = ccd};
+    lane.encoder->begin_frame(context);
+    if (!surfaces.empty()) lane.store.begin_frame(specs[i], options, context, *lane.encoder, surfaces[i]);
     lane.csb_bits = lane.encoder->csb_bits();
-    SchemeStatistics& scheme = out.schemes[i];
+    SchemeStatistics& scheme = out->schemes[i];
     scheme.burst_bits = options.burst_bits;
     scheme.palette_bits = lane.encoder->palette_bits();
     if (lane.decoder && !check.begin_frame(*lane.encoder, *lane.decoder))
       scheme.mismatched_blocks = now.blocks();
   }
+}
+
+/// Takes a copy of rows `begin` to `end` of blocks.
+void SurfaceEngine::State::take_rows(uint32_t begin, uint32_t end) {
+  changed += now.assign_rows(frame, begin * kBlockSide, end * kBlockSide,
+                             changed_blocks.empty() ? nullptr : changed_blocks.data());
 }
 
 /// Pixels of a block that lie inside the surface: padding never enters the FVC.
@@ -196,9 +234,9 @@ bool SurfaceEngine::State::repeat_block(uint32_t bx, uint32_t by, const uint32_t
   return true;
 }
 
-void SurfaceEngine::State::settle_repeats(FrameStatistics& out) {
+void SurfaceEngine::State::settle_repeats() {
   if (last.repeats == 0) return;
-  for (size_t i = 0; i < lanes.size(); ++i) out.schemes[i].add(lanes[i].last, last.repeats);
+  for (size_t i = 0; i < lanes.size(); ++i) out->schemes[i].add(lanes[i].last, last.repeats);
   last.repeats = 0;
 }
 
@@ -216,11 +254,21 @@ bool SurfaceEngine::State::split_few(const uint32_t* pixels) {
   return found;
 }
 
-void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTraits& format,
-                                       FrameStatistics& out) {
+/// Bits of the block's RAS stream: a block that is as it was has as many as it had.
+uint32_t SurfaceEngine::State::ras_bits(const BlockContext& block, const uint32_t* top_left,
+                                        const FormatTraits& format, bool ycocg) {
+  if (block.uniform) return ras_uniform_bits(format, ycocg);
+  const size_t number = size_t{block.by} * now.blocks_x() + block.bx;
+  uint16_t& known = (ycocg ? ras_ycocg_known : ras_known)[number];
+  if (changed_blocks[number] != 0)
+    known = static_cast<uint16_t>(ras_stream_bits(top_left, now.stride(), format, ycocg));
+  return known;
+}
+
+void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTraits& format) {
   const uint32_t* top_left = now.row(by * kBlockSide) + bx * kBlockSide;
   if (repeat_block(bx, by, top_left)) return;
-  settle_repeats(out);
+  settle_repeats();
   alignas(64) uint32_t pixels[kBlockPixels];
   Block block;
   BlockContext context{.block = block, .bx = bx, .by = by, .pixels = pixels};
@@ -243,7 +291,7 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
     const uint32_t payload_bits =
         surfaces.empty() ? lane.encoder->measure(context) : lane.store.put(*lane.encoder, context);
     if (context.uniform) lane.last = {};
-    SchemeStatistics& added = context.uniform ? lane.last : out.schemes[i];
+    SchemeStatistics& added = context.uniform ? lane.last : out->schemes[i];
     added.payload_bits += payload_bits;
     added.bursts += (payload_bits + burst_round) >> burst_shift;
     lane.encoder->account(context, payload_bits, added);
@@ -251,27 +299,37 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
       ++added.checked_blocks;
       added.mismatched_blocks += !check.round_trip(*lane.encoder, *lane.decoder, context, payload_bits);
     }
-    if (context.uniform) out.schemes[i].add(lane.last, 1);
+    if (context.uniform) out->schemes[i].add(lane.last, 1);
     if (block_bits != nullptr)
       block_bits->schemes[i][size_t{by} * block_bits->blocks_x + bx] = static_cast<uint16_t>(payload_bits);
   }
   collect(context);
 }
 
-void SurfaceEngine::State::end_frame(FrameStatistics& out) {
-  settle_repeats(out);
+void SurfaceEngine::State::advance() {
+  const FormatTraits& format = traits(frame.format);
+  const uint32_t begin = next_row;
+  next_row = std::min(begin + options.tile_side / kBlockSide, now.blocks_y());
+  if (!needs_whole_frame) take_rows(begin, next_row);  // they are at hand then
+  for_each_block_of_tiles(now.blocks_x(), begin, next_row, options.tile_side,
+                          [&](uint32_t bx, uint32_t by) { visit_block(bx, by, format); });
+  if (next_row == now.blocks_y()) end_frame();
+}
+
+void SurfaceEngine::State::end_frame() {
+  settle_repeats();
   settle_run();
   for (Collector& collector : collectors) collector.end_frame();
   const uint64_t blocks = now.blocks();
   for (size_t i = 0; i < lanes.size(); ++i) {
-    SchemeStatistics& scheme = out.schemes[i];
+    SchemeStatistics& scheme = out->schemes[i];
     scheme.blocks = blocks;
     scheme.raw_bits = blocks * kBlockPixels * traits(now.format()).pixel_bits;
     scheme.csb_bits = blocks * lanes[i].csb_bits;
   }
-  out.metrics = FrameMetrics{};
+  out->metrics = FrameMetrics{};
   if (options.frame_metrics)
-    out.metrics =
+    out->metrics =
         meter.measure(now, has_before ? std::optional(changed) : std::nullopt, collectors.front().fvc());
   for (Collector& collector : collectors)
     if (collector.wanted) collector.build_ccd();
@@ -320,31 +378,27 @@ void SurfaceEngine::process(const SurfaceView& frame, FrameStatistics& out) {
 
 void SurfaceEngine::process(const SurfaceView& frame, FrameStatistics& out,
                             std::span<CompressedSurface> surfaces) {
-  assert(surfaces.empty() || surfaces.size() == state_->specs.size());
-  state_->surfaces = surfaces;
-  const auto begin = std::chrono::steady_clock::now();
+  begin(frame, out, surfaces);
+  while (advance()) {
+  }
+}
+
+void SurfaceEngine::begin(const SurfaceView& frame, FrameStatistics& out,
+                          std::span<CompressedSurface> surfaces) {
   State& state = *state_;
-  const FormatTraits& format = traits(frame.format);
+  assert(surfaces.empty() || surfaces.size() == state.specs.size());
   assert(!state.has_before || state.now.has_shape_of(frame));
-  state.now.reshape(frame);
-  if (!state.opened) state.open(format);
-  out.width = frame.width;
-  out.height = frame.height;
-  out.format = frame.format;
-  out.warmup = state.ordinal == 0;
-  state.changed = state.needs_whole_frame ? state.now.assign(frame) : 0;
-  state.begin_frame(out);
-  for_each_block(
-      state.now.blocks_x(), state.now.blocks_y(), state.options.tile_side,
-      [&](uint32_t begin_y, uint32_t end_y) {  // rows are copied while they are at hand
-        if (!state.needs_whole_frame)
-          state.changed += state.now.assign_rows(frame, begin_y * kBlockSide, end_y * kBlockSide);
-      },
-      [&](uint32_t bx, uint32_t by) { state.visit_block(bx, by, format, out); });
-  state.end_frame(out);
-  const auto end = std::chrono::steady_clock::now();
-  out.encode_ns =
-      static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(end - begin).count());
+  const StepTime time(out);
+  state.frame = frame;
+  state.out = &out;
+  state.surfaces = surfaces;
+  state.begin_frame();
+}
+
+bool SurfaceEngine::advance() {
+  const StepTime time(*state_->out);
+  state_->advance();
+  return state_->next_row < state_->now.blocks_y();
 }
 
 }  // namespace tilepress

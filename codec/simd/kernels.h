@@ -77,9 +77,10 @@ struct Kernels {
 
   /// Copies `count` words of 4 bytes, of any alignment, to `row`, bytes 0 and 2 of each exchanged if
   /// `swap_red_blue`, and the bits of `set_bits` set. Returns how many words of `row` were not the same
-  /// before.
-  uint64_t (*replace_row)(const std::byte* words, uint32_t count, bool swap_red_blue, uint32_t set_bits,
-                          uint32_t* row);
+  /// before; where one of words 8b to 8b + 7 was not, changed_blocks[b] becomes other than 0 (null: not
+  /// wanted).
+  uint32_t (*replace_row)(const std::byte* words, uint32_t count, bool swap_red_blue, uint32_t set_bits,
+                          uint32_t* row, uint8_t* changed_blocks);
 
   /// ras_samples of an 8×8 block of four 8-bit channels, borders left out.
   void (*widen_bytes)(const uint32_t* top_left, uint32_t stride, int16_t* samples);

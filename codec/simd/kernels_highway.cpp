@@ -7,6 +7,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 #include "ras/ras_samples.h"
+#include "simd/replace_words.h"
 #include "tilepress/block.h"
 
 // The baseline without SIMD is what kernels_scalar.cpp is for.
@@ -17,6 +18,24 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Words = hn::CappedTag<uint32_t, 16>;
+
+/// Bit i: lane i of the mask.
+template <class M>
+HWY_INLINE uint64_t BitsOf(const Words& d, M mask) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  uint64_t bits;
+  __builtin_memcpy(&bits, bytes, 8);
+  return bits;
+}
+
+/// The mask of the lowest bits, one a lane.
+HWY_INLINE auto MaskOf(const Words& d, uint64_t bits) {
+  bits &= (uint64_t{1} << hn::Lanes(d)) - 1;
+  uint8_t bytes[8];
+  __builtin_memcpy(bytes, &bits, 8);
+  return hn::LoadMaskBits(d, bytes);
+}
 
 bool LoadTraversal(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t* HWY_RESTRICT pixels) {
   const hn::Full128<uint64_t> d;  // two pixels a lane: sub-blocks interleave pairs of two rows
@@ -77,11 +96,7 @@ bool Split(const uint32_t* HWY_RESTRICT pixels, FewColors& out) {
     const auto wanted = hn::Set(d, color);
     uint64_t places = 0;
     for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
-      uint8_t bits[8] = {};
-      hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, pixels + i), wanted), bits);
-      uint64_t lanes;
-      __builtin_memcpy(&lanes, bits, 8);
-      places |= lanes << i;
+      places |= BitsOf(d, hn::Eq(hn::LoadU(d, pixels + i), wanted)) << i;
     }
     out.colors[count] = color;
     out.places[count] = places;
@@ -176,11 +191,7 @@ uint64_t Members(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table,
     for (uint32_t c = 0; c < crowded; ++c)
       place = hn::IfThenElse(hn::Eq(color, hn::Set(d, crowded_colors[c])), hn::Set(d, size + 1 + c), place);
     hn::StoreU(place, d, places + i);
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Ne(place, outside), bits);
-    uint64_t lanes;
-    __builtin_memcpy(&lanes, bits, 8);
-    mask |= lanes << i;
+    mask |= BitsOf(d, hn::Ne(place, outside)) << i;
   }
   return mask;
 }
@@ -190,21 +201,13 @@ uint64_t Compact(const uint32_t* HWY_RESTRICT pixels, uint64_t mask, uint32_t be
   const Words d;
   uint32_t count = 0;
   for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
-    uint8_t bits[8] = {};
-    const uint64_t lanes = mask >> i & ((uint64_t{1} << hn::Lanes(d)) - 1);
-    __builtin_memcpy(bits, &lanes, 8);
-    const auto kept = hn::Compress(hn::LoadU(d, pixels + i), hn::LoadMaskBits(d, bits));
-    hn::StoreU(kept, d, out + count);
-    count += static_cast<uint32_t>(__builtin_popcountll(lanes));
+    hn::StoreU(hn::Compress(hn::LoadU(d, pixels + i), MaskOf(d, mask >> i)), d, out + count);
+    count += static_cast<uint32_t>(__builtin_popcountll(mask >> i & ((uint64_t{1} << hn::Lanes(d)) - 1)));
   }
   if (count == 0) return 0;
   uint64_t alike = out[0] == before;
   for (size_t i = 1; i < count; i += hn::Lanes(d)) {
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, out + i), hn::LoadU(d, out + i - 1)), bits);
-    uint64_t lanes;
-    __builtin_memcpy(&lanes, bits, 8);
-    alike |= lanes << i;
+    alike |= BitsOf(d, hn::Eq(hn::LoadU(d, out + i), hn::LoadU(d, out + i - 1))) << i;
   }
   return count == 64 ? alike : alike & ((uint64_t{1} << count) - 1);
 }
@@ -214,17 +217,11 @@ uint64_t RunBegins(const uint32_t* HWY_RESTRICT pixels) {
   uint64_t begins = 0;
   for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
     const auto now = hn::LoadU(d, pixels + i);
-    uint8_t bits[8] = {};
-    uint64_t lanes;
-    if (i > 0) {
-      hn::StoreMaskBits(d, hn::Ne(now, hn::LoadU(d, pixels + i - 1)), bits);
-      __builtin_memcpy(&lanes, bits, 8);
-    } else {  // from the comparison with the pixels behind
-      hn::StoreMaskBits(d, hn::Ne(now, hn::LoadU(d, pixels + 1)), bits);
-      __builtin_memcpy(&lanes, bits, 8);
-      lanes = (lanes << 1 | 1) & ((uint64_t{1} << hn::Lanes(d)) - 1);
-    }
-    begins |= lanes << i;
+    if (i > 0)
+      begins |= BitsOf(d, hn::Ne(now, hn::LoadU(d, pixels + i - 1))) << i;
+    else  // from the comparison with the pixels behind
+      begins =
+          (BitsOf(d, hn::Ne(now, hn::LoadU(d, pixels + 1))) << 1 | 1) & ((uint64_t{1} << hn::Lanes(d)) - 1);
   }
   return begins;
 }
@@ -290,28 +287,29 @@ uint32_t RasCodeBits(const int16_t* HWY_RESTRICT samples) {
   return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(d32, total)));
 }
 
-uint64_t ReplaceRow(const std::byte* words, uint32_t count, bool swap_red_blue, uint32_t set_bits,
-                    uint32_t* row) {
+uint32_t ReplaceRow(const std::byte* words, uint32_t count, bool swap_red_blue, uint32_t set_bits,
+                    uint32_t* row, uint8_t* changed_blocks) {
   const Words d;
   const auto bits = hn::Set(d, set_bits), kept = hn::Set(d, 0xFF00FF00u);
-  const size_t lanes = hn::Lanes(d);
+  const auto lanes = static_cast<uint32_t>(hn::Lanes(d));
   const auto vector_at = [&](size_t x) HWY_ATTR {
     const auto word = hn::LoadU(d, reinterpret_cast<const uint32_t*>(words) + x);
     if (!swap_red_blue) return hn::Or(word, bits);
     return hn::Or(hn::Or(hn::And(word, kept), hn::AndNot(kept, hn::RotateRight<16>(word))), bits);
   };
-  auto same = hn::Zero(d);  // minus the number, by lane
-  size_t x = 0;
+  uint32_t changed = 0, x = 0;
   for (; x + lanes <= count; x += lanes) {
     const auto word = vector_at(x);
-    const auto equal = hn::Eq(word, hn::LoadU(d, row + x));
-    same = hn::Add(same, hn::VecFromMask(d, equal));
-    if (!hn::AllTrue(d, equal)) hn::StoreU(word, d, row + x);  // what stays is not written again
+    const auto differs = hn::Ne(word, hn::LoadU(d, row + x));
+    if (hn::AllFalse(d, differs)) continue;  // what stays is not written again
+    hn::StoreU(word, d, row + x);
+    const uint64_t places = BitsOf(d, differs);
+    changed += static_cast<uint32_t>(__builtin_popcountll(places));
+    if (changed_blocks == nullptr) continue;
+    for (uint32_t lane = 0; lane < lanes; lane += 8)
+      changed_blocks[(x + lane) / 8] |= static_cast<uint8_t>(places >> lane);
   }
-  const auto alike = static_cast<uint32_t>(0u - hn::GetLane(hn::SumOfLanes(d, same)));
-  return x - alike +
-         scalar_kernels().replace_row(words + x * 4, count - static_cast<uint32_t>(x), swap_red_blue,
-                                      set_bits, row + x);
+  return changed + replace_words(words, x, count, swap_red_blue, set_bits, row, changed_blocks);
 }
 
 void WidenBytes(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, int16_t* HWY_RESTRICT samples) {

@@ -5,6 +5,7 @@
 
 #include "ras/ras_samples.h"
 #include "simd/kernel_sets.h"
+#include "simd/replace_words.h"
 #include "tilepress/block.h"
 
 namespace tilepress {
@@ -148,18 +149,9 @@ uint32_t ras_code_bits(const int16_t* samples) {
   return bits;
 }
 
-uint64_t replace_row(const std::byte* words, uint32_t count, bool swap_red_blue, uint32_t set_bits,
-                     uint32_t* row) {
-  uint64_t changed = 0;
-  for (uint32_t x = 0; x < count; ++x) {
-    uint32_t word;
-    std::memcpy(&word, words + size_t{x} * 4, 4);
-    if (swap_red_blue) word = (word & 0xFF00FF00u) | (word >> 16 & 0xFFu) | (word & 0xFFu) << 16;
-    word |= set_bits;
-    changed += row[x] != word;
-    row[x] = word;
-  }
-  return changed;
+uint32_t replace_row(const std::byte* words, uint32_t count, bool swap_red_blue, uint32_t set_bits,
+                     uint32_t* row, uint8_t* changed_blocks) {
+  return replace_words(words, 0, count, swap_red_blue, set_bits, row, changed_blocks);
 }
 
 void widen_bytes(const uint32_t* top_left, uint32_t stride, int16_t* samples) {

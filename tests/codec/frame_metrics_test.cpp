@@ -1,9 +1,11 @@
 // Frame metrics: colour counts against plain maps, over frames of few and of many colours by turns.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "surface_patterns.h"
 #include "tilepress/plane.h"
@@ -117,7 +119,7 @@ TEST(Metrics, OfAnotherSurfaceInTheSameThreadDoNotMix) {
   expect_metrics(statistics.metrics, noise, other);
 }
 
-TEST(Metrics, ChangedPixelsAreCountedWhileTheFrameIsCopied) {
+TEST(Metrics, ChangedPixelsAreCountedAndTheirBlocksNotedWhileTheFrameIsCopied) {
   const std::string_view target = simd_target();
   for (const std::string_view each : simd_targets()) {
     force_simd_target(each);
@@ -133,9 +135,16 @@ TEST(Metrics, ChangedPixelsAreCountedWhileTheFrameIsCopied) {
           PixelPlane plane;
           plane.assign(patterns::MemorySurface(picture, format, layout, false, 3).view());
           EXPECT_EQ(plane.assign(patterns::MemorySurface(picture, format, layout, true, 0).view()), 0u);
-          for (uint32_t x = 0; x < width; x += 3) picture.words[width + x] ^= 0x10;
-          EXPECT_EQ(plane.assign(patterns::MemorySurface(picture, format, layout, false, 0).view()),
-                    (width + 2) / 3);
+          for (uint32_t x = 0; x < width; x += 13) picture.words[width + x] ^= 0x10;
+          const patterns::MemorySurface now(picture, format, layout, false, 0);
+          std::vector<uint8_t> changed_blocks(plane.blocks());
+          plane.reshape(now.view());
+          EXPECT_EQ(plane.assign_rows(now.view(), 0, 8, changed_blocks.data()), (width + 12) / 13);
+          for (uint32_t bx = 0; bx < plane.blocks_x(); ++bx) {
+            const uint32_t begin = bx * 8, end = std::min(begin + 8, width);
+            const bool changes = (begin + 12) / 13 * 13 < end;  // the first multiple of 13 from there on
+            EXPECT_EQ(changed_blocks[bx] != 0, changes) << bx;
+          }
           for (uint32_t x = 0; x < width; ++x) EXPECT_EQ(plane.row(1)[x], picture.words[width + x]);
         }
   }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "surface_patterns.h"
 #include "tilepress/scheme.h"
 
@@ -192,5 +194,52 @@ TEST(Metrics, DoNotDependOnTheSchemesFvc) {
   for (int frame = 0; frame < 3; ++frame) {
     EXPECT_EQ(plain.next(picture).metrics.fvc_coverage, other.next(picture).metrics.fvc_coverage);
     picture.words[static_cast<size_t>(frame)] ^= 0xFFFF;
+  }
+}
+
+TEST(Engine, ABlockTakesInRasWhatItTakesWhicheverFramesCameBefore) {
+  // 21 × 13: the last column and row of blocks are padded. One pixel changes at a time, or none, or all.
+  patterns::Dice dice(5);
+  Picture picture = patterns::draw(patterns::kGradient, 21, 13, PixelFormat::kRgba8, 1);
+  Surface plain("ras"), ycocg("ras:ycocg=1");
+  for (int frame = 0; frame < 200; ++frame) {
+    SCOPED_TRACE(frame);
+    if (frame % 50 == 49) picture = patterns::draw(patterns::kNoise, 21, 13, PixelFormat::kRgba8, frame);
+    if (frame % 3 != 0) picture.words[dice.below(21 * 13)] ^= 1u << dice.below(32);
+    Surface new_plain("ras"), new_ycocg("ras:ycocg=1");
+    EXPECT_EQ(plain.scheme(picture).payload_bits, new_plain.scheme(picture).payload_bits);
+    EXPECT_EQ(ycocg.scheme(picture).payload_bits, new_ycocg.scheme(picture).payload_bits);
+  }
+}
+
+TEST(Engine, InStepsItGivesWhatItGivesAtOnce) {
+  // The palette wants the whole frame before its first block.
+  for (const char* schemes : {"vdcp", "palette"}) {
+    std::string error;
+    const std::vector<SchemeSpec> specs = {*parse_scheme(schemes, error), *parse_scheme("hdcp", error)};
+    SurfaceEngine at_once(specs, {}), in_steps(specs, {});
+    FrameStatistics expected, found;
+    for (int frame = 0; frame < 4; ++frame) {
+      const Picture picture = patterns::draw(patterns::kSkewed, 100, 90, PixelFormat::kRgba8, frame);
+      const auto memory = patterns::in_memory(picture);
+      at_once.process(memory.view(), expected);
+      in_steps.begin(memory.view(), found);
+      int steps = 1;
+      bool more = true;
+      while (more) {  // each in another thread
+        std::thread([&] { more = in_steps.advance(); }).join();
+        steps += more;
+      }
+      EXPECT_EQ(steps, 3) << "90 rows are three rows of tiles";
+      for (size_t i = 0; i < specs.size(); ++i) {
+        EXPECT_EQ(found.schemes[i].payload_bits, expected.schemes[i].payload_bits);
+        EXPECT_EQ(found.schemes[i].csb_bits, expected.schemes[i].csb_bits);
+        EXPECT_EQ(found.schemes[i].bursts, expected.schemes[i].bursts);
+      }
+      EXPECT_EQ(found.metrics.unique_colors, expected.metrics.unique_colors);
+      EXPECT_EQ(found.metrics.pixel_change, expected.metrics.pixel_change);
+      EXPECT_EQ(found.metrics.fvc_coverage, expected.metrics.fvc_coverage);
+      EXPECT_GT(found.encode_ns, 0u);
+    }
   }
 }

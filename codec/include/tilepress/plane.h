@@ -19,13 +19,16 @@ class PixelPlane {
   /// width, height ≤ kMaxSurfaceSide and a modelled format.
   uint64_t assign(const SurfaceView& view);
   /// The same in steps: takes on the shape of `view`; then its rows, in ranges that begin and end at a
-  /// multiple of 8 or at the bottom of the padded plane.
+  /// multiple of 8 or at the bottom of the padded plane. Where a pixel of a block changes, its byte of
+  /// `changed_blocks` (raster order; null: not wanted) becomes other than 0.
   void reshape(const SurfaceView& view);
-  uint64_t assign_rows(const SurfaceView& view, uint32_t begin, uint32_t end);
+  uint64_t assign_rows(const SurfaceView& view, uint32_t begin, uint32_t end,
+                       uint8_t* changed_blocks = nullptr);
 
   uint32_t width() const { return width_; }
   uint32_t height() const { return height_; }
   uint32_t stride() const { return stride_; }  ///< words from row to row, = 8 · blocks_x
+  uint32_t padded_height() const { return padded_height_; }
   uint32_t blocks_x() const { return stride_ / kBlockSide; }
   uint32_t blocks_y() const { return padded_height_ / kBlockSide; }
   uint64_t blocks() const { return uint64_t{blocks_x()} * blocks_y(); }

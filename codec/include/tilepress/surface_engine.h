@@ -47,15 +47,22 @@ class SurfaceEngine {
   /// order.
   void process(const SurfaceView& frame, FrameStatistics& out, std::span<CompressedSurface> surfaces);
 
-  /// From the next process() on also fills `bits`, which must outlive it; null ends that.
+  /// process() in steps, between which the caller may do other things, or go on in another thread: begin(),
+  /// then advance() until it returns false, when `out` is complete. Until then what was passed to begin()
+  /// must live. encode_ns is the time spent in the steps.
+  void begin(const SurfaceView& frame, FrameStatistics& out, std::span<CompressedSurface> surfaces = {});
+  /// Takes the next row of render tiles.
+  bool advance();
+
+  /// From the next frame on also fills `bits`, which must outlive it; null ends that.
   void note_block_bits(BlockBits* bits);
 
   /// Number of frames processed, or the last seek() and the frames since.
   uint64_t frames() const;
 
-  /// The frames that frame `ordinal` of the surface depends on, ascending: processed in this order, each after
-  /// a seek() to its number, they leave an engine as if it had seen all frames before `ordinal`. This is how a
-  /// sequence is cut into parts that run at once; what the repeated frames give is thrown away.
+  /// The frames that frame `ordinal` of the surface depends on, ascending: processed in this order, each
+  /// after a seek() to its number, they leave an engine as if it had seen all frames before `ordinal`. This
+  /// is how a sequence is cut into parts that run at once; what the repeated frames give is thrown away.
   std::vector<uint64_t> history(uint64_t ordinal, PixelFormat format);
   /// The next frame is number `ordinal` of the surface.
   void seek(uint64_t ordinal);
