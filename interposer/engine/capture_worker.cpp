@@ -16,7 +16,6 @@
 namespace tilepress {
 namespace {
 
-constexpr uint32_t kQueueDepth = 3;
 constexpr const char* kPresentColumns =
     "frame,surface,readback_ns,read_ns,wait_ns,damage,bind_ns,hand_off_ns,interval_ns,cause,readback\n";
 constexpr const char* kSurfaceColumns = "surface,role,origin,width,height,format,color_space\n";
@@ -49,7 +48,7 @@ void note_run_folder(const std::string& path, int64_t pid) {
 
 CaptureWorker::CaptureWorker(const RunOptions& options, const RunInfo& info, CaptureCounts& counts,
                              const ShimLog& log)
-    : options_(options), info_(info), counts_(counts), log_(log), queue_(kQueueDepth) {}
+    : options_(options), info_(info), counts_(counts), log_(log), queue_(options.queue_frames) {}
 
 bool CaptureWorker::start() {
   alive_ = thread_.start("tilepress", [this] { run(); });
@@ -76,7 +75,7 @@ void CaptureWorker::run() {
         else if (frame->lost)
           ++counts_.of(frame->role).not_captured;
         else if (alive())
-          process_in_turn(*frame);
+          process(*frame);
         queue_.done(frame);
       }
       if (writer_.is_open()) publish_counts();
@@ -116,22 +115,36 @@ CaptureWorker::Surface* CaptureWorker::known_surface(const CapturedFrame& frame)
   return found != surfaces_.end() && found->second.number == frame.surface ? &found->second : nullptr;
 }
 
-void CaptureWorker::process_in_turn(const CapturedFrame& frame) {
+void CaptureWorker::process(const CapturedFrame& frame) {
   // Memory is had for the first frame of a surface: always on one thread, or it would come from two heaps.
-  const bool known = known_surface(frame) != nullptr;
-  if (options_.on_full == OnFull::kBlock && known && pace_.yields(queue_.pending())) {
-    const YieldingThread::Turn turn = yielding_.run([&] { process(frame); });
+  const bool may_yield = options_.on_full == OnFull::kBlock && known_surface(frame) != nullptr;
+  SurfaceEngine* engine = begin(frame);
+  bool done = engine == nullptr;
+  const auto yields = [&] { return pace_.yields(queue_.pending(), queue_.depth()); };
+  const auto advance = [&] {
+    if (engine->advance()) return;
+    done = true;
+    end(frame);
+  };
+  if (may_yield && !done && yields()) {
+    // When frames pile up before this one is done, the rest of it is done at full priority.
+    const YieldingThread::Turn turn = yielding_.run([&] {
+      while (!done && yields()) advance();
+    });
     pace_.yielded(turn.wall_ns, turn.cpu_ns, queue_.full());
   } else {
-    process(frame);
     pace_.hurried();
   }
+  while (!done) advance();
 }
 
-void CaptureWorker::process(const CapturedFrame& frame) {
+SurfaceEngine* CaptureWorker::begin(const CapturedFrame& frame) {
   Surface* surface = known_surface(frame);
   if (surface == nullptr) {
-    if (!append_surface(frame)) return give_up(writer_.path() + "/surfaces.csv: cannot be written");
+    if (!append_surface(frame)) {
+      give_up(writer_.path() + "/surfaces.csv: cannot be written");
+      return nullptr;
+    }
     surface = &surfaces_
                    .insert_or_assign(frame.window,
                                      Surface{frame.surface, SurfaceEngine(options_.schemes, options_.model)})
@@ -141,11 +154,15 @@ void CaptureWorker::process(const CapturedFrame& frame) {
   statistics_.surface = frame.surface;
   statistics_.time_ns = frame.time_ns;
   statistics_.readback_ns = frame.readback_ns;
-  BlockBits* bits = pictures_.bits_for(frame.frame);
-  const bool watched = frame.role == SurfaceRole::kPresented && live_.picture_wanted();
-  if (watched && bits == nullptr) bits = &watched_bits_;
-  surface->engine.note_block_bits(bits);
-  surface->engine.process(frame.view, statistics_);
+  block_bits_ = pictures_.bits_for(frame.frame);
+  watched_ = frame.role == SurfaceRole::kPresented && live_.picture_wanted();
+  if (watched_ && block_bits_ == nullptr) block_bits_ = &watched_bits_;
+  surface->engine.note_block_bits(block_bits_);
+  surface->engine.begin(frame.view, statistics_);
+  return &surface->engine;
+}
+
+void CaptureWorker::end(const CapturedFrame& frame) {
   if (!pictures_.write(statistics_, frame.view)) return give_up(pictures_.error());
   dump_frame(frame, log_);
   if (!append_present(frame)) return give_up(writer_.path() + "/presents.csv: cannot be written");
@@ -153,10 +170,11 @@ void CaptureWorker::process(const CapturedFrame& frame) {
   ++counts_.of(frame.role).captured;
   // Without the frame in hand: it is pending until the queue has it back.
   if (frame.role == SurfaceRole::kPresented)
-    live_.update(statistics_, writer_.totals(), counts_.presented.now(), queue_.pending() - 1, kQueueDepth);
-  if (watched)
-    live_.set_picture_error(
-        live_picture_.write(writer_.path(), live_.state(), frame.view, *bits, options_.model.burst_bits));
+    live_.update(statistics_, writer_.totals(), counts_.presented.now(), queue_.pending() - 1,
+                 queue_.depth());
+  if (watched_)
+    live_.set_picture_error(live_picture_.write(writer_.path(), live_.state(), frame.view, *block_bits_,
+                                                options_.model.burst_bits));
 }
 
 bool CaptureWorker::append_present(const CapturedFrame& frame) {

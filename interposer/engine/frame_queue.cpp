@@ -112,9 +112,4 @@ bool FrameQueue::closed_and_empty() {
   return closed_ && ready_.empty();
 }
 
-uint32_t FrameQueue::pending() {
-  const std::lock_guard lock(mutex_);
-  return pending_;
-}
-
 }  // namespace tilepress

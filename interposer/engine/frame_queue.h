@@ -1,6 +1,7 @@
 // Frame queue: hands captured frames from the program's threads to the worker, a bounded number at a time.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -38,10 +39,12 @@ class FrameQueue {
   /// had within a second: the caller may be a signal handler on top of a thread that holds it.
   bool close();
   bool closed_and_empty();
-  /// Frames submitted that the worker has not finished.
-  uint32_t pending();
+  uint32_t depth() const { return depth_; }
+  /// Frames submitted that the worker has not finished. Takes no lock: a thread that yields to all others
+  /// must not hold one that they wait for.
+  uint32_t pending() const { return pending_; }
   /// As many as the bound: who acquires a frame now has to wait, or gets none.
-  bool full() { return pending() >= depth_; }
+  bool full() const { return pending() >= depth_; }
 
  private:
   const uint32_t depth_;
@@ -51,7 +54,7 @@ class FrameQueue {
   std::condition_variable_any changed_;
   std::vector<std::unique_ptr<CapturedFrame>> free_;
   std::deque<std::unique_ptr<CapturedFrame>> ready_;
-  uint32_t pending_ = 0;
+  std::atomic<uint32_t> pending_ = 0;  ///< changes under the lock
   bool closed_ = false, woken_ = false;
 };
 

@@ -16,8 +16,11 @@ class WorkerPace {
   static constexpr uint32_t kFirstRest = 16, kLongestRest = 4096;  ///< frames
   static constexpr uint64_t kStarved = 10;                         ///< wall time over CPU time
 
-  /// `pending`: frames not finished, the one at hand among them.
-  bool yields(uint32_t pending) const { return rest_ == 0 && pending <= 1; }
+  /// `pending`: frames not finished, the one at hand among them, of at most `depth`. Asked again while a
+  /// frame is at hand: the rest of it may be done at full priority.
+  bool yields(uint32_t pending, uint32_t depth) const {
+    return rest_ == 0 && pending <= std::max(1u, depth / 2);
+  }
   /// A frame was done yielding, in so much time; `held_up`: the queue is full now.
   void yielded(uint64_t wall_ns, uint64_t cpu_ns, bool held_up) {
     if (!held_up || wall_ns <= kStarved * cpu_ns) return;

@@ -1,7 +1,7 @@
-// Yielding thread: a lock, a condition, a thread of nice 19.
+// Yielding thread: a lock, a condition, a thread of the idle class.
 #include "interposer/engine/yielding_thread.h"
 
-#include <sys/resource.h>
+#include <sched.h>
 #include <time.h>
 
 #include <utility>
@@ -10,8 +10,6 @@
 
 namespace tilepress {
 namespace {
-
-constexpr int kLowestPriority = 19;
 
 uint64_t thread_cpu_ns() {
   timespec time{};
@@ -45,7 +43,8 @@ YieldingThread::Turn YieldingThread::run(const std::function<void()>& work) {
 }
 
 void YieldingThread::serve() {
-  setpriority(PRIO_PROCESS, 0, kLowestPriority);  // on Linux: of this thread
+  const sched_param none{};
+  sched_setscheduler(0, SCHED_IDLE, &none);  // on Linux: of this thread
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [&] { return work_ != nullptr || ended_; });

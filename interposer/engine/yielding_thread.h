@@ -11,8 +11,9 @@
 
 namespace tilepress {
 
-/// A thread of the lowest ordinary priority. One that lowers its own priority may not raise it again without
-/// privileges, so work that is to be done at either priority needs a thread for each.
+/// A thread that gets the cores nobody else wants (SCHED_IDLE): others are scheduled as if it were not there.
+/// One that lowers its own priority may not raise it again without privileges, so work that is to be done at
+/// either priority needs a thread for each. `work` must hold no lock that others may wait for.
 class YieldingThread {
  public:
   struct Turn {

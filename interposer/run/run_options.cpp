@@ -131,6 +131,13 @@ bool set_on_full(RunOptions& options, std::string_view& value, std::string& reas
   return true;
 }
 
+bool set_queue(RunOptions& options, std::string_view& value, std::string& reason) {
+  uint64_t frames = 0;
+  if (!parse_count(value, 1, 64, frames, reason)) return false;
+  options.queue_frames = static_cast<uint32_t>(frames);
+  return true;
+}
+
 constexpr std::pair<std::string_view, Readback> kReadbacks[] = {{"auto", Readback::kAuto},
                                                                 {"sync", Readback::kSync},
                                                                 {"async", Readback::kAsync},
@@ -232,6 +239,7 @@ constexpr OptionEntry kOptions[] = {
     {"heatmaps", "TILEPRESS_HEATMAPS", set_heatmaps},
     {"dump-frames", "TILEPRESS_DUMP_FRAMES", set_dump_frames},
     {"on-full", "TILEPRESS_ON_FULL", set_on_full},
+    {"queue", "TILEPRESS_QUEUE", set_queue},
     {"readback", "TILEPRESS_READBACK", set_readback},
     {"trigger", "TILEPRESS_TRIGGER", set_trigger},
     {"targets", "TILEPRESS_TARGETS", set_targets},
@@ -283,6 +291,7 @@ std::map<std::string, std::string> to_environment(const RunOptions& options) {
       {"TILEPRESS_HEATMAPS", picture_rule(options.heatmaps_every)},
       {"TILEPRESS_DUMP_FRAMES", picture_rule(options.dump_frames_every)},
       {"TILEPRESS_ON_FULL", options.on_full == OnFull::kBlock ? "block" : "drop"},
+      {"TILEPRESS_QUEUE", std::to_string(options.queue_frames)},
       {"TILEPRESS_READBACK", readback_name(options.readback)},
       {"TILEPRESS_TRIGGER", trigger_list(options.triggers)},
       {"TILEPRESS_TARGETS", options.all_targets ? "all" : ""},

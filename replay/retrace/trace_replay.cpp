@@ -43,6 +43,9 @@ uint64_t count_wanted(const TraceSummary& trace, const RunOptions& options) {
   return count;
 }
 
+/// Renderer and worker want all cores by turns: with as many, hardly ever does one wait for the other.
+constexpr uint32_t kQueueFrames = 8;
+
 }  // namespace
 
 struct TraceReplay::Attempt {
@@ -56,6 +59,8 @@ struct TraceReplay::Attempt {
 TraceReplay::TraceReplay(ReplayInput input, const ReplayOptions& options)
     : input_(std::move(input)), options_(options), run_options_(options.run) {
   if (input_.frames) run_options_.frames = *input_.frames;
+  // A retracer that crashes can be started again: what is in the queue then may be more than in programs.
+  run_options_.queue_frames = kQueueFrames;
   run_path_ = options.run.output + "/" + input_.name;
   partial_path_ = run_path_ + ".partial";
 }

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
-#include <sys/resource.h>
 
 #include <stdexcept>
 #include <thread>
@@ -19,15 +19,18 @@ constexpr uint64_t kMs = 1'000'000;
 /// Frames that are not yielded for, before the pace yields again.
 uint32_t rest_of(WorkerPace& pace) {
   uint32_t frames = 0;
-  for (; !pace.yields(1) && frames <= 2 * WorkerPace::kLongestRest; ++frames) pace.hurried();
+  for (; !pace.yields(1, 3) && frames <= 2 * WorkerPace::kLongestRest; ++frames) pace.hurried();
   return frames;
 }
 
 TEST(WorkerPace, YieldsWhileItKeepsUpAndHurriesWhenFramesPileUp) {
   const WorkerPace pace;
-  EXPECT_TRUE(pace.yields(1));
-  EXPECT_FALSE(pace.yields(2));
-  EXPECT_FALSE(pace.yields(3));
+  EXPECT_TRUE(pace.yields(1, 3));
+  EXPECT_FALSE(pace.yields(2, 3));
+  EXPECT_FALSE(pace.yields(3, 3));
+  EXPECT_TRUE(pace.yields(4, 8));
+  EXPECT_FALSE(pace.yields(5, 8));
+  EXPECT_TRUE(pace.yields(1, 1));
 }
 
 TEST(WorkerPace, RestsLongerEachTimeItWasStarvedUpToABound) {
@@ -43,31 +46,31 @@ TEST(WorkerPace, RestsLongerEachTimeItWasStarvedUpToABound) {
 TEST(WorkerPace, GoesOnYieldingWhileNobodyWaitsOrTheWorkItselfIsLong) {
   WorkerPace pace;
   pace.yielded(500 * kMs, 10 * kMs, false);  // slow, but the program did not wait
-  EXPECT_TRUE(pace.yields(1));
+  EXPECT_TRUE(pace.yields(1, 3));
   pace.yielded(100 * kMs, 10 * kMs, true);  // it did, for work that took as long as it has to
-  EXPECT_TRUE(pace.yields(1));
+  EXPECT_TRUE(pace.yields(1, 3));
 }
 
-TEST(YieldingThread, WorksOnAThreadOfItsOwnOfTheLowestPriorityWithTheSignalsOfItsMaker) {
+TEST(YieldingThread, WorksOnAThreadOfItsOwnOfTheIdleClassWithTheSignalsOfItsMaker) {
   sigset_t all, before;
   sigfillset(&all);
   ASSERT_EQ(pthread_sigmask(SIG_SETMASK, &all, &before), 0);
-  const int own_priority = getpriority(PRIO_PROCESS, 0);
+  const int own_class = sched_getscheduler(0);
   YieldingThread thread;
   std::thread::id first, second;
-  int priority = 0;
+  int scheduler = -1;
   sigset_t mask;
   thread.run([&] { first = std::this_thread::get_id(); });
   thread.run([&] {
     second = std::this_thread::get_id();
-    priority = getpriority(PRIO_PROCESS, 0);
+    scheduler = sched_getscheduler(0);
     pthread_sigmask(SIG_SETMASK, nullptr, &mask);
   });
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   EXPECT_NE(first, std::this_thread::get_id());
   EXPECT_EQ(first, second);
-  EXPECT_EQ(priority, 19);
-  EXPECT_EQ(getpriority(PRIO_PROCESS, 0), own_priority) << "the caller keeps its own";
+  EXPECT_EQ(scheduler, SCHED_IDLE);
+  EXPECT_EQ(sched_getscheduler(0), own_class) << "the caller keeps its own";
   EXPECT_EQ(sigismember(&mask, SIGTERM), 1);
 }
 

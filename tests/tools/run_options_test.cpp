@@ -74,6 +74,7 @@ TEST(RunOptions, NameTheOptionAndTheValueThatIsOutOfRange) {
   EXPECT_EQ(option_error("every", "-1"), "every -1: not a whole number");
   EXPECT_EQ(option_error("verify", "maybe"), "verify maybe: neither 1 nor 0");
   EXPECT_EQ(option_error("on-full", "wait"), "on-full wait: neither block nor drop");
+  EXPECT_EQ(option_error("queue", "0"), "queue 0: not a number from 1 to 64");
   EXPECT_EQ(option_error("readback", "pbo"), "readback pbo: not one of auto, sync, async, in-context");
   EXPECT_EQ(option_error("output", ""), "output '': no folder named");
   EXPECT_EQ(option_error("scheme", " "), "scheme  : no scheme named");
@@ -136,6 +137,7 @@ TEST_F(RunEnvironment, CarriesEveryOption) {
                                                      {"every", "5"},
                                                      {"verify", "1"},
                                                      {"on-full", "drop"},
+                                                     {"queue", "7"},
                                                      {"readback", "async"},
                                                      {"output", "/a b"},
                                                      {"log-level", "debug"},
@@ -154,6 +156,7 @@ TEST_F(RunEnvironment, CarriesEveryOption) {
   EXPECT_EQ(back.frames.text(), "0-9,20");
   EXPECT_EQ(back.every, 5u);
   EXPECT_EQ(back.on_full, OnFull::kDrop);
+  EXPECT_EQ(back.queue_frames, 7u);
   EXPECT_EQ(back.readback, Readback::kAsync);
   EXPECT_EQ(back.output, "/a b");
 }

@@ -51,6 +51,7 @@ struct RunOptions {
   uint64_t heatmaps_every = 0;     ///< a heat map of every n-th frame number; 0 = none
   uint64_t dump_frames_every = 0;  ///< the pixels of every n-th frame number; 0 = none
   OnFull on_full = OnFull::kBlock;
+  uint32_t queue_frames = 3;  ///< that may wait for the worker: a crash loses as many; 1..64
   Readback readback = Readback::kAuto;
   uint32_t triggers = 0;     ///< Trigger bits
   bool all_targets = false;  ///< framebuffer objects too, not only what is presented
@@ -65,7 +66,7 @@ struct RunOptions {
 std::string trigger_list(uint32_t triggers);
 
 /// Sets one option by its long name without dashes ("scheme", "tile", "burst", "frames", "every", "verify",
-/// "heatmaps", "dump-frames", "on-full", "readback", "trigger" (a list with commas), "targets", "log-level",
+/// "heatmaps", "dump-frames", "on-full", "queue", "readback", "trigger" (a list with commas), "targets", "log-level",
 /// "log-file", "output"). "scheme" takes a space-separated list and replaces the schemes. Returns false and
 /// one line in `error` for an unknown name or a value out of range.
 bool set_run_option(RunOptions& options, std::string_view name, std::string_view value, std::string& error);
