@@ -13,6 +13,7 @@
 #include <fstream>
 
 #include "images/image_library.h"
+#include "images/plain_png.h"
 #include "quiet_standard_error.h"
 
 namespace tilepress {
@@ -47,6 +48,7 @@ std::unique_ptr<ImageFile> open_input(const std::string& path, std::string& erro
     error = path + ": is a folder; name its images";
     return nullptr;
   }
+  if (auto png = open_plain_png(path)) return png;
   const ImageLibrary* library = image_library(error);
   if (library == nullptr) return nullptr;
   std::string reason;

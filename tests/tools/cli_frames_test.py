@@ -25,15 +25,15 @@ JPEG = base64.b64decode(
 GIF = base64.b64decode("R0lGODlhAQABAIAAAAAAAP///yH5BAEAAAAALAAAAAABAAEAAAIBRAA7")
 
 
-def png(width, height, channels, bits, rows):
-    """A PNG of raw sample bytes; channels 1, 2, 3 or 4."""
+def png(width, height, channels, bits, rows, extra=()):
+    """A PNG of raw sample bytes; channels 1, 2, 3 or 4. `extra`: chunks before the pixels, (name, content) each."""
     color_type = {1: 0, 2: 4, 3: 2, 4: 6}[channels]
 
     def chunk(name, content):
         return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
     header = struct.pack(">IIBBBBB", width, height, bits, color_type, 0, 0, 0)
     body = zlib.compress(b"".join(b"\0" + row for row in rows))
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", body) + chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + b"".join(chunk(*each) for each in extra) + chunk(b"IDAT", body) + chunk(b"IEND", b"")
 
 
 class Command(CliCase):
@@ -123,6 +123,33 @@ class Rows(CliCase):
         self.run_command("frames", "-o", "out", "-s", "red", "--size", "8x8", "gray.png", "rgb.png", "opaque.rgba",
                          "graya.png")
         self.assertEqual([row["pixel_change"] for row in read_rows(self.path("out/frames.csv"))], ["0"] * 4)
+
+    def test_samples_of_a_png_are_taken_as_stored_whatever_else_it_says_of_them(self):
+        rows = [bytes((x * 31 + y * 7 + c * 50) % 256 for x in range(24) for c in range(4)) for y in range(8)]
+        self.write("plain.png", png(24, 8, 4, 8, rows))
+        self.write("other.png", png(24, 8, 4, 8, rows, [(b"gAMA", struct.pack(">I", 100000)), (b"sRGB", b"\1"),
+                                                         (b"bKGD", bytes(6)), (b"sBIT", bytes([5, 6, 5, 8]))]))
+        self.write("raw.rgba", b"".join(rows))
+        self.run_command("frames", "-o", "out", "-s", "red", "--size", "24x8", "raw.rgba", "plain.png", "other.png", "raw.rgba")
+        self.assertEqual([row["pixel_change"] for row in read_rows(self.path("out/frames.csv"))], ["0"] * 4)
+
+    def test_a_transparent_colour_of_a_png_becomes_alpha(self):
+        rows = [bytes([10, 20, 30] * 4 + [40, 50, 60] * 4)] * 8
+        self.write("keyed.png", png(8, 8, 3, 8, rows, [(b"tRNS", struct.pack(">HHH", 10, 20, 30))]))
+        self.write("raw.rgba", bytes([10, 20, 30, 0] * 4 + [40, 50, 60, 255] * 4) * 8)
+        self.run_command("frames", "-o", "out", "-s", "red", "--size", "8x8", "raw.rgba", "keyed.png")
+        self.assertEqual(read_rows(self.path("out/frames.csv"))[1]["pixel_change"], "0")
+
+    def test_a_png_with_damaged_pixels_is_named(self):
+        rows = [bytes((x * x + y * 3 + c) % 256 for x in range(64) for c in range(4)) for y in range(64)]
+        whole = png(64, 64, 4, 8, rows)
+        self.write("whole.png", whole)
+        at = whole.index(b"IDAT") + 4 + 200
+        self.write("broken.png", whole[:at] + bytes(byte ^ 0x55 for byte in whole[at:at + 8]) + whole[at + 8:])
+        done = self.run_command("frames", "-q", "-o", "out", "whole.png", "broken.png", env=WHOLE_STACKS)
+        self.assertEqual(done.returncode, FAILED)
+        self.assertRegex(done.stderr.decode(), r"\Atilepress: broken\.png: [^\n]+\n\Z")
+        self.assertEqual(len(read_rows(self.path("out/frames.csv"))), 1)
 
     def test_raw_frames_come_through_standard_input(self):
         two = bytes(8 * 8 * 4) + bytes([255]) * (8 * 8 * 4)
