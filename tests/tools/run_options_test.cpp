@@ -74,7 +74,7 @@ TEST(RunOptions, NameTheOptionAndTheValueThatIsOutOfRange) {
   EXPECT_EQ(option_error("every", "-1"), "every -1: not a whole number");
   EXPECT_EQ(option_error("verify", "maybe"), "verify maybe: neither 1 nor 0");
   EXPECT_EQ(option_error("on-full", "wait"), "on-full wait: neither block nor drop");
-  EXPECT_EQ(option_error("queue", "0"), "queue 0: not a number from 1 to 64");
+  EXPECT_EQ(option_error("queue", "0"), "queue 0: not in 1..64");
   EXPECT_EQ(option_error("readback", "pbo"), "readback pbo: not one of auto, sync, async, in-context");
   EXPECT_EQ(option_error("output", ""), "output '': no folder named");
   EXPECT_EQ(option_error("scheme", " "), "scheme  : no scheme named");
