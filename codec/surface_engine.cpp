@@ -13,7 +13,7 @@
 #include "block_check.h"
 #include "dcp/collector.h"
 #include "memory/surface_store.h"
-#include "ras/ras_stream.h"
+#include "ras/ras_memo.h"
 #include "simd/kernels.h"
 #include "statistics/frame_metrics.h"
 #include "tilepress/scheme.h"
@@ -55,9 +55,8 @@ struct SurfaceEngine::State {
   std::deque<Collector> collectors;  ///< with frame_metrics the first is the default, theirs
   std::vector<Lane> lanes;
   PixelPlane now;
-  uint64_t changed = 0;                 ///< pixels, since the frame before
-  std::vector<uint8_t> changed_blocks;  ///< raster order; 0: as in the frame before. Kept if needed
-  std::vector<uint16_t> ras_known, ras_ycocg_known;  ///< bits of each block, as it was visited last
+  uint64_t changed = 0;  ///< pixels, since the frame before
+  RasMemo ras_memo;
   FrameMeter meter;
   BlockCheck check;
   uint64_t ordinal = 0;
@@ -100,7 +99,10 @@ struct SurfaceEngine::State {
   void settle_run();
   bool split_few(const uint32_t* pixels);
   uint32_t ras_bits(const BlockContext& block, const uint32_t* top_left, const FormatTraits& format,
-                    bool ycocg);
+                    bool ycocg) {
+    if (block.uniform) return ras_uniform_bits(format, ycocg);
+    return ras_memo.bits(size_t{block.by} * now.blocks_x() + block.bx, top_left, now.stride(), format, ycocg);
+  }
   void end_frame();
 };
 
@@ -146,9 +148,7 @@ void SurfaceEngine::State::begin_frame() {
   out->encode_ns = 0;
   next_row = 0;
   changed = 0;
-  if (needs_ras) ras_known.resize(now.blocks());
-  if (needs_ras_ycocg) ras_ycocg_known.resize(now.blocks());
-  if (needs_ras || needs_ras_ycocg) changed_blocks.assign(now.blocks(), has_before ? 0 : 1);
+  ras_memo.begin_frame(now.blocks(), has_before, needs_ras, needs_ras_ycocg);
   if (needs_whole_frame) take_rows(0, now.blocks_y());
   for (Collector& collector : collectors) collector.begin_frame(ordinal);
   last.solid = false;
@@ -178,8 +178,7 @@ void SurfaceEngine::State::begin_frame() {
 
 /// Takes a copy of rows `begin` to `end` of blocks.
 void SurfaceEngine::State::take_rows(uint32_t begin, uint32_t end) {
-  changed += now.assign_rows(frame, begin * kBlockSide, end * kBlockSide,
-                             changed_blocks.empty() ? nullptr : changed_blocks.data());
+  changed += now.assign_rows(frame, begin * kBlockSide, end * kBlockSide, ras_memo.changed_blocks());
 }
 
 /// Pixels of a block that lie inside the surface: padding never enters the FVC.
@@ -252,17 +251,6 @@ bool SurfaceEngine::State::split_few(const uint32_t* pixels) {
   few_score = found ? std::min(few_score + 1, kBest) : few_score - std::min(few_score, kFailure);
   if (few_score == 0 && !found) until_few = kPause;
   return found;
-}
-
-/// Bits of the block's RAS stream: a block that is as it was has as many as it had.
-uint32_t SurfaceEngine::State::ras_bits(const BlockContext& block, const uint32_t* top_left,
-                                        const FormatTraits& format, bool ycocg) {
-  if (block.uniform) return ras_uniform_bits(format, ycocg);
-  const size_t number = size_t{block.by} * now.blocks_x() + block.bx;
-  uint16_t& known = (ycocg ? ras_ycocg_known : ras_known)[number];
-  if (changed_blocks[number] != 0)
-    known = static_cast<uint16_t>(ras_stream_bits(top_left, now.stride(), format, ycocg));
-  return known;
 }
 
 void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTraits& format) {
