@@ -145,8 +145,6 @@ void SurfaceEngine::State::begin_frame() {
   out->height = frame.height;
   out->format = frame.format;
   out->warmup = ordinal == 0;
-  out->encode_ns = 0;
-  next_row = 0;
   changed = 0;
   ras_memo.begin_frame(now.blocks(), has_before, needs_ras, needs_ras_ycocg);
   if (needs_whole_frame) take_rows(0, now.blocks_y());
@@ -295,6 +293,7 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
 }
 
 void SurfaceEngine::State::advance() {
+  if (next_row == 0) begin_frame();
   const FormatTraits& format = traits(frame.format);
   const uint32_t begin = next_row;
   next_row = std::min(begin + options.tile_side / kBlockSide, now.blocks_y());
@@ -376,11 +375,11 @@ void SurfaceEngine::begin(const SurfaceView& frame, FrameStatistics& out,
   State& state = *state_;
   assert(surfaces.empty() || surfaces.size() == state.specs.size());
   assert(!state.has_before || state.now.has_shape_of(frame));
-  const StepTime time(out);
+  out.encode_ns = 0;
   state.frame = frame;
   state.out = &out;
   state.surfaces = surfaces;
-  state.begin_frame();
+  state.next_row = 0;
 }
 
 bool SurfaceEngine::advance() {

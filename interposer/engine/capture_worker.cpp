@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
 #include "interposer/engine/frame_dump.h"
 
@@ -116,35 +117,11 @@ CaptureWorker::Surface* CaptureWorker::known_surface(const CapturedFrame& frame)
 }
 
 void CaptureWorker::process(const CapturedFrame& frame) {
-  // Memory is had for the first frame of a surface: always on one thread, or it would come from two heaps.
-  const bool may_yield = options_.on_full == OnFull::kBlock && known_surface(frame) != nullptr;
-  SurfaceEngine* engine = begin(frame);
-  bool done = engine == nullptr;
-  const auto yields = [&] { return pace_.yields(queue_.pending(), queue_.depth()); };
-  const auto advance = [&] {
-    if (engine->advance()) return;
-    done = true;
-    end(frame);
-  };
-  if (may_yield && !done && yields()) {
-    // When frames pile up before this one is done, the rest of it is done at full priority.
-    const YieldingThread::Turn turn = yielding_.run([&] {
-      while (!done && yields()) advance();
-    });
-    pace_.yielded(turn.wall_ns, turn.cpu_ns, queue_.full());
-  } else {
-    pace_.hurried();
-  }
-  while (!done) advance();
-}
-
-SurfaceEngine* CaptureWorker::begin(const CapturedFrame& frame) {
   Surface* surface = known_surface(frame);
+  // Memory is had for the first frame of a surface: always on one thread, or it would come from two heaps.
+  const bool may_yield = options_.on_full == OnFull::kBlock && surface != nullptr;
   if (surface == nullptr) {
-    if (!append_surface(frame)) {
-      give_up(writer_.path() + "/surfaces.csv: cannot be written");
-      return nullptr;
-    }
+    if (!append_surface(frame)) return give_up(writer_.path() + "/surfaces.csv: cannot be written");
     surface = &surfaces_
                    .insert_or_assign(frame.window,
                                      Surface{frame.surface, SurfaceEngine(options_.schemes, options_.model)})
@@ -154,15 +131,12 @@ SurfaceEngine* CaptureWorker::begin(const CapturedFrame& frame) {
   statistics_.surface = frame.surface;
   statistics_.time_ns = frame.time_ns;
   statistics_.readback_ns = frame.readback_ns;
-  block_bits_ = pictures_.bits_for(frame.frame);
-  watched_ = frame.role == SurfaceRole::kPresented && live_.picture_wanted();
-  if (watched_ && block_bits_ == nullptr) block_bits_ = &watched_bits_;
-  surface->engine.note_block_bits(block_bits_);
+  BlockBits* bits = pictures_.bits_for(frame.frame);
+  const bool watched = frame.role == SurfaceRole::kPresented && live_.picture_wanted();
+  if (watched && bits == nullptr) bits = &watched_bits_;
+  surface->engine.note_block_bits(bits);
   surface->engine.begin(frame.view, statistics_);
-  return &surface->engine;
-}
-
-void CaptureWorker::end(const CapturedFrame& frame) {
+  compress(surface->engine, may_yield);
   if (!pictures_.write(statistics_, frame.view)) return give_up(pictures_.error());
   dump_frame(frame, log_);
   if (!append_present(frame)) return give_up(writer_.path() + "/presents.csv: cannot be written");
@@ -172,9 +146,27 @@ void CaptureWorker::end(const CapturedFrame& frame) {
   if (frame.role == SurfaceRole::kPresented)
     live_.update(statistics_, writer_.totals(), counts_.presented.now(), queue_.pending() - 1,
                  queue_.depth());
-  if (watched_)
-    live_.set_picture_error(live_picture_.write(writer_.path(), live_.state(), frame.view, *block_bits_,
-                                                options_.model.burst_bits));
+  if (watched)
+    live_.set_picture_error(
+        live_picture_.write(writer_.path(), live_.state(), frame.view, *bits, options_.model.burst_bits));
+}
+
+void CaptureWorker::compress(SurfaceEngine& engine, bool may_yield) {
+  // A program that ends waits for all that is pending, and so does a replay behind the last frame wanted.
+  const std::optional<uint64_t> last = options_.frames.last();
+  const auto awaited = [&] { return queue_.closed() || (last && counts_.presented.seen > *last); };
+  const auto yields = [&] { return !awaited() && pace_.yields(queue_.pending(), queue_.depth()); };
+  bool more = true;
+  if (may_yield && yields()) {
+    // When frames pile up before this one is done, the rest of it is done at full priority.
+    const YieldingThread::Turn turn = yielding_.run([&] {
+      while (more && yields()) more = engine.advance();
+    });
+    pace_.yielded(turn.wall_ns, turn.cpu_ns, queue_.full());
+  } else {
+    pace_.hurried();
+  }
+  while (more) more = engine.advance();
 }
 
 bool CaptureWorker::append_present(const CapturedFrame& frame) {

@@ -57,9 +57,8 @@ class CaptureWorker {
   /// Null before its first frame.
   Surface* known_surface(const CapturedFrame& frame);
   void process(const CapturedFrame& frame);
-  /// Null: given up.
-  SurfaceEngine* begin(const CapturedFrame& frame);
-  void end(const CapturedFrame& frame);
+  /// The rest of a frame that has begun.
+  void compress(SurfaceEngine& engine, bool may_yield);
   bool append_present(const CapturedFrame& frame);
   bool append_surface(const CapturedFrame& frame);
   void publish_counts();
@@ -78,8 +77,6 @@ class CaptureWorker {
   LiveWriter live_;
   LivePictureWriter live_picture_;
   BlockBits watched_bits_;                ///< for live_picture_, when no heat map is due
-  BlockBits* block_bits_ = nullptr;       ///< of the frame at hand; null if nobody wants them
-  bool watched_ = false;                  ///< it goes to live_picture_
   std::map<uint32_t, Surface> surfaces_;  ///< by window
   FrameStatistics statistics_;
   WorkerPace pace_;

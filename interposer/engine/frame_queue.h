@@ -39,6 +39,7 @@ class FrameQueue {
   /// had within a second: the caller may be a signal handler on top of a thread that holds it.
   bool close();
   bool closed_and_empty();
+  bool closed() const { return closed_; }
   uint32_t depth() const { return depth_; }
   /// Frames submitted that the worker has not finished. Takes no lock: a thread that yields to all others
   /// must not hold one that they wait for.
@@ -55,7 +56,8 @@ class FrameQueue {
   std::vector<std::unique_ptr<CapturedFrame>> free_;
   std::deque<std::unique_ptr<CapturedFrame>> ready_;
   std::atomic<uint32_t> pending_ = 0;  ///< changes under the lock
-  bool closed_ = false, woken_ = false;
+  std::atomic<bool> closed_ = false;   ///< the same
+  bool woken_ = false;
 };
 
 }  // namespace tilepress

@@ -88,7 +88,8 @@ class PlainPng final : public ImageFile {
     const std::unique_ptr<ImageFile> file = library != nullptr ? library->open(path_, reason) : nullptr;
     ImageHeader now;
     return file != nullptr && file->header(image, now) && now.width == header_.width &&
-           now.height == header_.height && file->read(image, channels, out, reason);
+           now.height == header_.height && now.channels == channels &&
+           now.sample_type == header_.sample_type && file->read(image, channels, out, reason);
   }
 
  private:

@@ -28,7 +28,6 @@ class PixelPlane {
   uint32_t width() const { return width_; }
   uint32_t height() const { return height_; }
   uint32_t stride() const { return stride_; }  ///< words from row to row, = 8 · blocks_x
-  uint32_t padded_height() const { return padded_height_; }
   uint32_t blocks_x() const { return stride_ / kBlockSide; }
   uint32_t blocks_y() const { return padded_height_ / kBlockSide; }
   uint64_t blocks() const { return uint64_t{blocks_x()} * blocks_y(); }

@@ -51,7 +51,7 @@ class SurfaceEngine {
   /// then advance() until it returns false, when `out` is complete. Until then what was passed to begin()
   /// must live. encode_ns is the time spent in the steps.
   void begin(const SurfaceView& frame, FrameStatistics& out, std::span<CompressedSurface> surfaces = {});
-  /// Takes the next row of render tiles.
+  /// Takes the next row of render tiles. begin() itself does no work.
   bool advance();
 
   /// From the next frame on also fills `bits`, which must outlive it; null ends that.

@@ -66,9 +66,9 @@ struct RunOptions {
 std::string trigger_list(uint32_t triggers);
 
 /// Sets one option by its long name without dashes ("scheme", "tile", "burst", "frames", "every", "verify",
-/// "heatmaps", "dump-frames", "on-full", "queue", "readback", "trigger" (a list with commas), "targets", "log-level",
-/// "log-file", "output"). "scheme" takes a space-separated list and replaces the schemes. Returns false and
-/// one line in `error` for an unknown name or a value out of range.
+/// "heatmaps", "dump-frames", "on-full", "queue", "readback", "trigger" (a list with commas), "targets",
+/// "log-level", "log-file", "output"). "scheme" takes a space-separated list and replaces the schemes.
+/// Returns false and one line in `error` for an unknown name or a value out of range.
 bool set_run_option(RunOptions& options, std::string_view name, std::string_view value, std::string& error);
 
 /// The environment that makes the shim run with these options: TILEPRESS_OUT, TILEPRESS_SCHEME,
