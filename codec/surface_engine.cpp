@@ -273,7 +273,7 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
     Lane& lane = lanes[i];
     const bool look_up = lane.collector != nullptr && lane.collector->ccd() != nullptr;
     context.ccd_indices = look_up ? lane.collector->indices() : nullptr;
-    context.ccd_largest = look_up ? lane.collector->largest() : nullptr;
+    context.ccd_widths = look_up ? lane.collector->widths() : nullptr;
     const uint32_t payload_bits =
         surfaces.empty() ? lane.encoder->measure(context) : lane.store.put(*lane.encoder, context);
     if (context.uniform) lane.last = {};

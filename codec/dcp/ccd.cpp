@@ -56,9 +56,10 @@ bool CcdLookup::place_all(const Ccd& ccd, bool probing) {
   return true;
 }
 
-void CcdLookup::find_block(const uint32_t* pixels, uint32_t* indices, uint32_t* largest) const {
-  if (collision_free_) return kernels().find(pixels, table_, kNotInCcd, indices, largest);
-  uint32_t last_color = pixels[0], last_index = find(last_color);
+void CcdLookup::find_block(const uint32_t* pixels, uint16_t* indices, uint8_t* widths) const {
+  if (collision_free_) return kernels().find(pixels, table_, indices, widths);
+  uint32_t last_color = pixels[0];
+  uint16_t last_index = find(last_color);
   for (uint32_t i = 0; i < kBlockPixels; ++i) {
     if (pixels[i] != last_color) {
       last_color = pixels[i];
@@ -66,15 +67,17 @@ void CcdLookup::find_block(const uint32_t* pixels, uint32_t* indices, uint32_t* 
     }
     indices[i] = last_index;
   }
-  for (uint32_t i = 0; i < kBlockPixels; i += 4)
-    std::fill_n(largest + i, 4, std::max({indices[i], indices[i + 1], indices[i + 2], indices[i + 3]}));
+  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+    const uint16_t* of_sub = indices + sub * kSubBlockPixels;
+    widths[sub] = width_of(std::max({of_sub[0], of_sub[1], of_sub[2], of_sub[3]}));
+  }
 }
 
-void CcdLookup::find_block(const uint32_t* pixels, const FewColors& few, uint32_t* indices,
-                           uint32_t* largest) const {
+void CcdLookup::find_block(const uint32_t* pixels, const FewColors& few, uint16_t* indices,
+                           uint8_t* widths) const {
   uint32_t found[FewColors::kMost];
   for (uint32_t n = 0; n < few.count; ++n) found[n] = find(few.colors[n]);
-  kernels().find_few(pixels, few, found, indices, largest);
+  kernels().find_few(pixels, few, found, indices, widths);
 }
 
 void Rccd::write(const Ccd& ccd, uint32_t slots, uint32_t pixel_bits, BitWriter& out) {

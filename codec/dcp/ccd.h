@@ -29,21 +29,27 @@ struct Ccd {
   void build(const Fvc& fvc);
 };
 
+/// Bits that the largest index of a sub-block takes; kRawWidth for kNotInCcd.
+constexpr uint8_t width_of(uint16_t largest) {
+  return largest == kNotInCcd ? kRawWidth : static_cast<uint8_t>(std::bit_width(largest));
+}
+
 /// Finds colours in a CCD. Small dictionaries get a table without collisions, found by trying multipliers,
 /// which a SIMD kernel reads many pixels at a time; large ones an open-addressed table.
 class CcdLookup {
  public:
   void build(const Ccd& ccd);
   /// CCD index of the colour, kNotInCcd if it has none.
-  uint32_t find(uint32_t color) const {
+  uint16_t find(uint32_t color) const {
     for (uint32_t at = table_.bucket(color);; at = (at + 1) & (table_.size() - 1))
-      if (table_.values[at] == kNotInCcd || table_.colors[at] == color) return table_.values[at];
+      if (table_.values[at] == kNotInCcd || table_.colors[at] == color)
+        return static_cast<uint16_t>(table_.values[at]);
   }
-  /// A block of 64 pixels in traversal order: its indices, and for each pixel the largest index of its
-  /// sub-block.
-  void find_block(const uint32_t* pixels, uint32_t* indices, uint32_t* largest) const;
+  /// A block of 64 pixels in traversal order: its indices, and the widths of its sub-blocks; see
+  /// BlockContext.
+  void find_block(const uint32_t* pixels, uint16_t* indices, uint8_t* widths) const;
   /// The same for a block of few colours.
-  void find_block(const uint32_t* pixels, const FewColors& few, uint32_t* indices, uint32_t* largest) const;
+  void find_block(const uint32_t* pixels, const FewColors& few, uint16_t* indices, uint8_t* widths) const;
 
  private:
   bool place_all(const Ccd& ccd, bool probing);

@@ -46,11 +46,11 @@ void Collector::build_ccd() {
 }
 
 void Collector::look_up(const uint32_t* pixels, bool uniform, const FewColors* few) {
-  if (few != nullptr) return lookup_.find_block(pixels, *few, indices_.data(), largest_.data());
-  if (!uniform) return lookup_.find_block(pixels, indices_.data(), largest_.data());
-  const uint32_t index = lookup_.find(pixels[0]);
+  if (few != nullptr) return lookup_.find_block(pixels, *few, indices_.data(), widths_.data());
+  if (!uniform) return lookup_.find_block(pixels, indices_.data(), widths_.data());
+  const uint16_t index = lookup_.find(pixels[0]);
   indices_.fill(index);
-  largest_.fill(index);
+  widths_.fill(width_of(index));
 }
 
 }  // namespace tilepress

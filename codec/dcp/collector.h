@@ -31,13 +31,13 @@ class Collector {
   /// After end_frame(), for schemes that look colours up.
   void build_ccd();
 
-  /// Of a block in traversal order: indices() and largest(), see BlockContext. Precondition: ccd() is there.
+  /// Of a block in traversal order: indices() and widths(), see BlockContext. Precondition: ccd() is there.
   void look_up(const uint32_t* pixels, bool uniform, const FewColors* few);
 
   const Fvc& fvc() const { return fvc_; }
   const Ccd* ccd() const { return has_ccd_ ? &ccd_ : nullptr; }  ///< null: none yet
-  const uint32_t* indices() const { return indices_.data(); }
-  const uint32_t* largest() const { return largest_.data(); }
+  const uint16_t* indices() const { return indices_.data(); }
+  const uint8_t* widths() const { return widths_.data(); }
 
   bool wanted = false;  ///< a scheme looks colours up in its CCD
 
@@ -48,7 +48,8 @@ class Collector {
   CcdLookup lookup_;
   bool has_ccd_ = false;
   bool collecting_ = false;  ///< in this frame
-  std::array<uint32_t, kBlockPixels> indices_, largest_;
+  std::array<uint16_t, kBlockPixels> indices_;
+  std::array<uint8_t, kSubBlocks> widths_;
 };
 
 }  // namespace tilepress

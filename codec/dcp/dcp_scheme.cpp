@@ -30,8 +30,8 @@ class DcpEncoder : public DcpFamilyEncoder {
   }
   uint32_t measure(const BlockContext& block) const override {
     if (!active()) return raw_block_bits();
-    const uint32_t compressed = kernels().count_below(block.ccd_largest, 1u << width_);  // pixels
-    return compressed * width_ + (kBlockPixels - compressed) * pixel_bits_;
+    const uint32_t compressed = kernels().count_up_to(block.ccd_widths, width_);
+    return kSubBlockPixels * (compressed * width_ + (kSubBlocks - compressed) * pixel_bits_);
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
@@ -51,7 +51,7 @@ class DcpEncoder : public DcpFamilyEncoder {
 
  private:
   bool fits(const BlockContext& block, uint32_t sub) const {
-    return block.ccd_largest[sub * kSubBlockPixels] < 1u << width_;
+    return block.ccd_widths[sub] <= width_;
   }
   uint32_t width_ = 0;
 };

@@ -1,7 +1,7 @@
 // VDCP sub-blocks: the width of a sub-block's indices, shared by VDCP and the hybrid.
 #pragma once
 
-#include <bit>
+#include <array>
 #include <cstdint>
 
 #include "dcp/dcp_family.h"
@@ -9,39 +9,30 @@
 
 namespace tilepress {
 
-/// Index width of a sub-block whose largest CCD index is `largest`: its bit width (index 0 → 0 bits, 1 → 1,
-/// 2–3 → 2 …). The paper prints ceil(log2(max index)); its own example needs the bit width.
-inline uint32_t vdcp_width(uint32_t largest) {
-  return static_cast<uint32_t>(std::bit_width(largest));
-}
+// The index width of a sub-block is the bit width of its largest CCD index (0 → 0 bits, 1 → 1, 2–3 → 2 …). The
+// paper prints ceil(log2(max index)); its own example needs the bit width.
 
-/// Payload bits of a block: four times the widths of its sub-blocks, the sum over all pixels.
+/// Payload bits of a block.
 inline uint32_t vdcp_measure(const BlockContext& block, uint32_t pixel_bits) {
-  if (block.uniform) {
-    const uint32_t index = block.ccd_indices[0];
-    return kBlockPixels * (index == kNotInCcd ? pixel_bits : vdcp_width(index));
-  }
-  return kernels().width_sum(block.ccd_largest, kNotInCcd, pixel_bits);
+  return kSubBlockPixels * kernels().width_sum(block.ccd_widths, pixel_bits);
 }
 
 /// Up to this width the indices of two sub-blocks fit into one put.
 constexpr uint32_t kMaxPairedBits = kMaxBitsPerCall / (2 * kSubBlockPixels);
 
-/// Widths of the sub-blocks, kRawWidth for raw ones. `look_up` = false: all raw.
-inline void vdcp_widths(const BlockContext& block, bool look_up, uint32_t* widths) {
-  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-    const uint32_t largest = look_up ? block.ccd_largest[sub * kSubBlockPixels] : kNotInCcd;
-    widths[sub] = largest == kNotInCcd ? kRawWidth : vdcp_width(largest);
-  }
-}
-
 /// Writes a block: per sub-block `csb_width` ≤ 5 CSB bits holding the width, or `raw_mark` for a raw one.
 /// `look_up` = false: all raw. Indices have at most `index_bits` bits.
 inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t index_bits, uint32_t pixel_bits,
                         uint32_t csb_width, uint32_t raw_mark, BitWriter& payload, BitWriter& csb) {
-  if (block.uniform && look_up && block.ccd_largest[0] != kNotInCcd) {  // sixteen equal sub-blocks
+  static constexpr auto kAllRaw = [] {
+    std::array<uint8_t, kSubBlocks> raw;
+    raw.fill(kRawWidth);
+    return raw;
+  }();
+  const uint8_t* widths = look_up ? block.ccd_widths : kAllRaw.data();
+  if (block.uniform && widths[0] != kRawWidth) {  // sixteen equal sub-blocks
     const uint64_t index = block.ccd_indices[0];
-    const uint32_t width = vdcp_width(block.ccd_largest[0]);
+    const uint32_t width = widths[0];
     uint64_t marks = 0, indices = 0;
     for (uint32_t sub = 0; sub < 8; ++sub) marks = marks << csb_width | width;
     for (uint32_t i = 0; i < kSubBlockPixels; ++i) indices = indices << width | index;
@@ -52,12 +43,9 @@ inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t index_
     payload = out;
     return;
   }
-  uint32_t packed[kSubBlocks], widths[kSubBlocks];
+  uint32_t packed[kSubBlocks];
   const bool pairs = look_up && index_bits <= kMaxPairedBits;
-  if (pairs)
-    kernels().pack(block.ccd_indices, block.ccd_largest, kNotInCcd, packed, widths);
-  else
-    vdcp_widths(block, look_up, widths);
+  if (pairs) kernels().pack(block.ccd_indices, widths, packed);
   BitWriter out = payload;
   const auto two_marks = [&](uint32_t sub) {
     const uint64_t first = widths[sub] == kRawWidth ? raw_mark : widths[sub];

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "simd/probe_table.h"
+#include "tilepress/block.h"
 
 namespace tilepress {
 
@@ -22,9 +23,6 @@ struct FewColors {
   uint64_t places[kMost];  ///< bit i: pixel i is of this colour
 };
 
-/// Stands for a sub-block without indices.
-constexpr uint32_t kRawWidth = 0xFF;
-
 struct Kernels {
   const char* name;
 
@@ -35,29 +33,26 @@ struct Kernels {
   /// True if all 64 pixels of an 8×8 block are `color`.
   bool (*is_solid)(const uint32_t* top_left, uint32_t stride, uint32_t color);
 
-  /// values[i] = the table's value of pixels[i], `absent` if it has none; largest[i] = the largest of the
-  /// four values of i's sub-block. For collision-free tables.
-  void (*find)(const uint32_t* pixels, const ProbeTable& table, uint32_t absent, uint32_t* values,
-               uint32_t* largest);
+  /// indices[i] = the table's value of pixels[i], kNotInCcd if it has none; widths[s] = the bit width of the
+  /// largest index of sub-block s, kRawWidth if one of its pixels has none. For collision-free tables.
+  void (*find)(const uint32_t* pixels, const ProbeTable& table, uint16_t* indices, uint8_t* widths);
 
   /// False if the block has too many colours, see FewColors.
   bool (*split)(const uint32_t* pixels, FewColors& out);
 
   /// As find, where the values of the block's few colours are known.
-  void (*find_few)(const uint32_t* pixels, const FewColors& few, const uint32_t* few_values, uint32_t* values,
-                   uint32_t* largest);
+  void (*find_few)(const uint32_t* pixels, const FewColors& few, const uint32_t* few_values,
+                   uint16_t* indices, uint8_t* widths);
 
-  /// Sum over the lanes of the bit width of largest[i]; `raw_bits` where it is `absent`: VDCP's payload.
-  uint32_t (*width_sum)(const uint32_t* largest, uint32_t absent, uint32_t raw_bits);
+  /// Sum of the widths of the sub-blocks; `raw_bits` (16 or 32) where one is kRawWidth.
+  uint32_t (*width_sum)(const uint8_t* widths, uint32_t raw_bits);
 
-  /// Per sub-block s: widths[s] = the bit width of largest[4s], kRawWidth where that is `absent`; packed[s] =
-  /// its four indices, the first on top, of as many bits each; of no meaning where it is raw. Indices of at
-  /// most 8 bits.
-  void (*pack)(const uint32_t* indices, const uint32_t* largest, uint32_t absent, uint32_t* packed,
-               uint32_t* widths);
+  /// packed[s] = the four indices of sub-block s, the first on top, of widths[s] bits each; of no meaning
+  /// where that is kRawWidth. Widths up to 8.
+  void (*pack)(const uint16_t* indices, const uint8_t* widths, uint32_t* packed);
 
-  /// Number of lanes with largest[i] < limit.
-  uint32_t (*count_below)(const uint32_t* largest, uint32_t limit);
+  /// Number of sub-blocks of a width up to `limit` (below kRawWidth).
+  uint32_t (*count_up_to)(const uint8_t* widths, uint32_t limit);
 
   /// Bit i of the result: pixels[i] is in the table or one of the `crowded` colours. places[i] = its bucket,
   /// or table size + 1 + its number among the crowded; table size for the others.

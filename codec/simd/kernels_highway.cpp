@@ -9,6 +9,7 @@
 #include "ras/ras_samples.h"
 #include "simd/replace_words.h"
 #include "tilepress/block.h"
+#include "tilepress/scheme.h"
 
 // The baseline without SIMD is what kernels_scalar.cpp is for.
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
@@ -67,11 +68,39 @@ bool IsSolid(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t co
   return hn::AllTrue(d, hn::Eq(difference, hn::Zero(d)));
 }
 
-void Find(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table, uint32_t absent,
-          uint32_t* HWY_RESTRICT values, uint32_t* HWY_RESTRICT largest) {
+/// Takes the indices of a block, some lanes at a time in order, and knows the widths of its sub-blocks.
+class Indices {
+ public:
+  template <class V>
+  HWY_INLINE void Put(size_t i, V index, uint16_t* HWY_RESTRICT indices) {
+    const Words d;
+    const hn::RebindToSigned<Words> di;
+    const hn::Rebind<uint16_t, Words> d16;
+    const hn::Rebind<uint8_t, Words> d8;
+    const hn::RebindToFloat<Words> df;
+    hn::StoreU(hn::DemoteTo(d16, hn::BitCast(di, index)), d16, indices + i);
+    const auto pair = hn::Max(index, hn::Shuffle2301(index));
+    const auto largest = hn::BitCast(di, hn::Max(pair, hn::Shuffle1032(pair)));
+    // The exponent of a positive integer as a float is its bit width - 1 + 127; that of 0 is 0.
+    const auto exponent = hn::ShiftRight<23>(hn::BitCast(di, hn::ConvertTo(df, largest)));
+    const auto width = hn::Max(hn::Sub(exponent, hn::Set(di, 126)), hn::Zero(di));
+    const auto absent = hn::Eq(largest, hn::Set(di, kNotInCcd));
+    hn::StoreU(hn::DemoteTo(d8, hn::IfThenElse(absent, hn::Set(di, kRawWidth), width)), d8, of_pixels_ + i);
+  }
+  HWY_INLINE void Widths(uint8_t* HWY_RESTRICT widths) const {
+    for (uint32_t sub = 0; sub < kSubBlocks; ++sub) widths[sub] = of_pixels_[sub * kSubBlockPixels];
+  }
+
+ private:
+  HWY_ALIGN uint8_t of_pixels_[kLanes];
+};
+
+void Find(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table, uint16_t* HWY_RESTRICT indices,
+          uint8_t* HWY_RESTRICT widths) {
   const Words d;
   const hn::RebindToSigned<Words> di;
-  const auto none = hn::Set(d, absent), multiplier = hn::Set(d, table.multiplier);
+  const auto none = hn::Set(d, kNotInCcd), multiplier = hn::Set(d, table.multiplier);
+  Indices out;
   for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
     const auto color = hn::LoadU(d, pixels + i);
     const auto at =
@@ -81,10 +110,9 @@ void Find(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table, uint32_t
     auto value = none;
     if (!hn::AllFalse(d, known))
       value = hn::IfThenElse(known, hn::GatherIndex(d, table.values.data(), at), none);
-    hn::StoreU(value, d, values + i);
-    const auto pair = hn::Max(value, hn::Shuffle2301(value));
-    hn::StoreU(hn::Max(pair, hn::Shuffle1032(pair)), d, largest + i);
+    out.Put(i, value, indices);
   }
+  out.Widths(widths);
 }
 
 bool Split(const uint32_t* HWY_RESTRICT pixels, FewColors& out) {
@@ -108,71 +136,54 @@ bool Split(const uint32_t* HWY_RESTRICT pixels, FewColors& out) {
 }
 
 void FindFew(const uint32_t* HWY_RESTRICT pixels, const FewColors& few,
-             const uint32_t* HWY_RESTRICT few_values, uint32_t* HWY_RESTRICT values,
-             uint32_t* HWY_RESTRICT largest) {
+             const uint32_t* HWY_RESTRICT few_values, uint16_t* HWY_RESTRICT indices,
+             uint8_t* HWY_RESTRICT widths) {
   const Words d;
+  Indices out;
   for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
     const auto color = hn::LoadU(d, pixels + i);
     auto value = hn::Set(d, few_values[0]);
     for (uint32_t n = 1; n < few.count; ++n)
       value = hn::IfThenElse(hn::Eq(color, hn::Set(d, few.colors[n])), hn::Set(d, few_values[n]), value);
-    hn::StoreU(value, d, values + i);
-    const auto pair = hn::Max(value, hn::Shuffle2301(value));
-    hn::StoreU(hn::Max(pair, hn::Shuffle1032(pair)), d, largest + i);
+    out.Put(i, value, indices);
+  }
+  out.Widths(widths);
+}
+
+uint32_t WidthSum(const uint8_t* HWY_RESTRICT widths, uint32_t raw_bits) {
+  const hn::Full128<uint8_t> d;
+  const hn::Full128<uint64_t> d64;
+  const auto width = hn::LoadU(d, widths);
+  const auto raw = hn::Eq(width, hn::Set(d, kRawWidth));
+  const auto bits = hn::IfThenElse(raw, hn::Set(d, static_cast<uint8_t>(raw_bits)), width);
+  return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(d64, hn::SumsOf8(bits))));
+}
+
+void Pack(const uint16_t* HWY_RESTRICT indices, const uint8_t* HWY_RESTRICT widths,
+          uint32_t* HWY_RESTRICT packed) {
+  const hn::Full128<uint32_t> d;
+  const hn::Rebind<uint16_t, decltype(d)> d16;
+  struct Factors {
+    HWY_ALIGN uint32_t of[9][4] = {};
+    constexpr Factors() {
+      for (uint32_t width = 0; width < 9; ++width)
+        for (uint32_t i = 0; i < 4; ++i) of[width][i] = 1u << (3 - i) * width;
+    }
+  };
+  static constexpr Factors kFactors;
+  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+    const uint32_t width = widths[sub] <= 8 ? widths[sub] : 0;
+    const auto index = hn::PromoteTo(d, hn::LoadU(d16, indices + sub * kSubBlockPixels));
+    const auto placed = hn::Mul(index, hn::Load(d, kFactors.of[width]));
+    const auto pairs = hn::Or(placed, hn::Shuffle2301(placed));
+    packed[sub] = hn::GetLane(hn::Or(pairs, hn::Shuffle1032(pairs)));
   }
 }
 
-uint32_t WidthSum(const uint32_t* HWY_RESTRICT largest, uint32_t absent, uint32_t raw_bits) {
-  const Words d;
-  const hn::RebindToSigned<Words> di;
-  const hn::RebindToFloat<Words> df;
-  const auto none = hn::Set(d, absent);
-  const auto raw = hn::Set(di, static_cast<int32_t>(raw_bits));
-  auto sum = hn::Zero(di);
-  for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
-    const auto index = hn::LoadU(d, largest + i);
-    // The exponent of a positive integer as a float is its bit width - 1 + 127; that of 0 is 0.
-    const auto exponent = hn::ShiftRight<23>(hn::BitCast(di, hn::ConvertTo(df, hn::BitCast(di, index))));
-    const auto width = hn::Max(hn::Sub(exponent, hn::Set(di, 126)), hn::Zero(di));
-    sum = hn::Add(sum, hn::IfThenElse(hn::RebindMask(di, hn::Eq(index, none)), raw, width));
-  }
-  return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(di, sum)));
-}
-
-void Pack(const uint32_t* HWY_RESTRICT indices, const uint32_t* HWY_RESTRICT largest, uint32_t absent,
-          uint32_t* HWY_RESTRICT packed, uint32_t* HWY_RESTRICT widths) {
-  const Words d;
-  const hn::RebindToSigned<Words> di;
-  const hn::RebindToFloat<Words> df;
-  HWY_ALIGN static constexpr uint32_t kPlace[16] = {3, 2, 1, 0, 3, 2, 1, 0, 3, 2, 1, 0, 3, 2, 1, 0};
-  const auto place = hn::LoadU(d, kPlace), none = hn::Set(d, absent), raw = hn::Set(d, kRawWidth);
-  HWY_ALIGN uint32_t all_packed[kLanes], all_widths[kLanes];
-  for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
-    const auto top = hn::LoadU(d, largest + i);
-    const auto exponent = hn::ShiftRight<23>(hn::BitCast(di, hn::ConvertTo(df, hn::BitCast(di, top))));
-    const auto bits = hn::BitCast(d, hn::Max(hn::Sub(exponent, hn::Set(di, 126)), hn::Zero(di)));
-    const auto width = hn::IfThenElse(hn::Eq(top, none), raw, bits);
-    const auto shift = hn::And(hn::Mul(bits, place), hn::Set(d, 31));  // a raw one's may be larger
-    const auto shifted = hn::Shl(hn::LoadU(d, indices + i), shift);
-    const auto pairs = hn::Or(shifted, hn::Shuffle2301(shifted));
-    hn::StoreU(hn::Or(pairs, hn::Shuffle1032(pairs)), d, all_packed + i);
-    hn::StoreU(width, d, all_widths + i);
-  }
-  for (uint32_t sub = 0; sub < kLanes / 4; ++sub) {
-    packed[sub] = all_packed[sub * 4];
-    widths[sub] = all_widths[sub * 4];
-  }
-}
-
-uint32_t CountBelow(const uint32_t* HWY_RESTRICT largest, uint32_t limit) {
-  const Words d;
-  const hn::RebindToSigned<Words> di;  // both below 2^31: signed comparison is at hand everywhere
-  const auto bound = hn::Set(di, static_cast<int32_t>(limit));
-  uint32_t count = 0;
-  for (size_t i = 0; i < kLanes; i += hn::Lanes(d))
-    count +=
-        static_cast<uint32_t>(hn::CountTrue(di, hn::Lt(hn::BitCast(di, hn::LoadU(d, largest + i)), bound)));
-  return count;
+uint32_t CountUpTo(const uint8_t* HWY_RESTRICT widths, uint32_t limit) {
+  const hn::Full128<uint8_t> d;
+  const auto width = hn::LoadU(d, widths), bound = hn::Set(d, static_cast<uint8_t>(limit));
+  return static_cast<uint32_t>(hn::CountTrue(d, hn::Eq(hn::Max(width, bound), bound)));
 }
 
 uint64_t Members(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table,
@@ -325,7 +336,7 @@ void WidenBytes(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, int16_t*
 
 const Kernels& Set(const char* name) {
   static const Kernels kSet = {name,    LoadTraversal, IsSolid,     Find,       Split,
-                               FindFew, WidthSum,      Pack,        CountBelow, Members,
+                               FindFew, WidthSum,      Pack,        CountUpTo,  Members,
                                Compact, RunBegins,     RasCodeBits, ReplaceRow, WidenBytes};
   return kSet;
 }

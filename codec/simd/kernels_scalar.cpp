@@ -7,6 +7,7 @@
 #include "simd/kernel_sets.h"
 #include "simd/replace_words.h"
 #include "tilepress/block.h"
+#include "tilepress/scheme.h"
 
 namespace tilepress {
 namespace {
@@ -27,18 +28,20 @@ bool is_solid(const uint32_t* top_left, uint32_t stride, uint32_t color) {
   return true;
 }
 
-void fill_largest(const uint32_t* values, uint32_t* largest) {
-  for (uint32_t i = 0; i < kLanes; i += 4)
-    std::fill_n(largest + i, 4, std::max({values[i], values[i + 1], values[i + 2], values[i + 3]}));
+void fill_widths(const uint16_t* indices, uint8_t* widths) {
+  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+    const uint16_t largest = *std::max_element(indices + sub * kSubBlockPixels,
+                                               indices + (sub + 1) * kSubBlockPixels);
+    widths[sub] = largest == kNotInCcd ? kRawWidth : static_cast<uint8_t>(std::bit_width(largest));
+  }
 }
 
-void find(const uint32_t* pixels, const ProbeTable& table, uint32_t absent, uint32_t* values,
-          uint32_t* largest) {
+void find(const uint32_t* pixels, const ProbeTable& table, uint16_t* indices, uint8_t* widths) {
   for (uint32_t i = 0; i < kLanes; ++i) {
     const uint32_t at = table.bucket(pixels[i]);
-    values[i] = table.colors[at] == pixels[i] ? table.values[at] : absent;
+    indices[i] = table.colors[at] == pixels[i] ? static_cast<uint16_t>(table.values[at]) : kNotInCcd;
   }
-  fill_largest(values, largest);
+  fill_widths(indices, widths);
 }
 
 bool split(const uint32_t* pixels, FewColors& out) {
@@ -56,36 +59,32 @@ bool split(const uint32_t* pixels, FewColors& out) {
   return true;
 }
 
-void find_few(const uint32_t*, const FewColors& few, const uint32_t* few_values, uint32_t* values,
-              uint32_t* largest) {
+void find_few(const uint32_t*, const FewColors& few, const uint32_t* few_values, uint16_t* indices,
+              uint8_t* widths) {
   for (uint32_t n = 0; n < few.count; ++n)
     for (uint32_t i = 0; i < kLanes; ++i)
-      if ((few.places[n] >> i & 1) != 0) values[i] = few_values[n];
-  fill_largest(values, largest);
+      if ((few.places[n] >> i & 1) != 0) indices[i] = static_cast<uint16_t>(few_values[n]);
+  fill_widths(indices, widths);
 }
 
-uint32_t width_sum(const uint32_t* largest, uint32_t absent, uint32_t raw_bits) {
+uint32_t width_sum(const uint8_t* widths, uint32_t raw_bits) {
   uint32_t bits = 0;
-  for (uint32_t i = 0; i < kLanes; ++i)
-    bits += largest[i] == absent ? raw_bits : static_cast<uint32_t>(std::bit_width(largest[i]));
+  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) bits += widths[sub] == kRawWidth ? raw_bits : widths[sub];
   return bits;
 }
 
-void pack(const uint32_t* indices, const uint32_t* largest, uint32_t absent, uint32_t* packed,
-          uint32_t* widths) {
+void pack(const uint16_t* indices, const uint8_t* widths, uint32_t* packed) {
   for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-    const uint32_t top = largest[sub * kSubBlockPixels];
-    const uint32_t width = top == absent ? 0 : static_cast<uint32_t>(std::bit_width(top));
-    widths[sub] = top == absent ? kRawWidth : width;
     packed[sub] = 0;
+    if (widths[sub] == kRawWidth) continue;
     for (uint32_t i = 0; i < kSubBlockPixels; ++i)
-      packed[sub] = packed[sub] << width | indices[sub * kSubBlockPixels + i];
+      packed[sub] = packed[sub] << widths[sub] | indices[sub * kSubBlockPixels + i];
   }
 }
 
-uint32_t count_below(const uint32_t* largest, uint32_t limit) {
+uint32_t count_up_to(const uint8_t* widths, uint32_t limit) {
   return static_cast<uint32_t>(
-      std::count_if(largest, largest + kLanes, [&](uint32_t v) { return v < limit; }));
+      std::count_if(widths, widths + kSubBlocks, [&](uint32_t width) { return width <= limit; }));
 }
 
 uint64_t members(const uint32_t* pixels, const ProbeTable& table, const uint32_t* crowded_colors,
@@ -166,7 +165,7 @@ void widen_bytes(const uint32_t* top_left, uint32_t stride, int16_t* samples) {
 
 const Kernels& scalar_kernels() {
   static const Kernels kScalar = {"scalar", load_traversal, is_solid,      find,        split,
-                                  find_few, width_sum,      pack,          count_below, members,
+                                  find_few, width_sum,      pack,          count_up_to, members,
                                   compact,  run_begins,     ras_code_bits, replace_row, widen_bytes};
   return kScalar;
 }

@@ -112,20 +112,22 @@ class BlockHarness {
       for (uint32_t i = 0; i < kBlockPixels; ++i) {
         pixels[i] = block.pixels[kTraversal[i]];
         const auto at = std::find(colors.begin(), colors.end(), pixels[i]);
-        indices[i] = at == colors.end() ? kNotInCcd : static_cast<uint32_t>(at - colors.begin());
+        indices[i] = at == colors.end() ? kNotInCcd : static_cast<uint16_t>(at - colors.begin());
       }
-      for (uint32_t i = 0; i < kBlockPixels; ++i)
-        largest[i] = *std::max_element(indices.begin() + i / 4 * 4, indices.begin() + i / 4 * 4 + 4);
+      for (uint32_t sub = 0; sub < kSubBlocks; ++sub)
+        widths[sub] = width_of(*std::max_element(indices.begin() + sub * 4, indices.begin() + sub * 4 + 4));
       context.pixels = pixels.data();
       context.uniform = std::count(pixels.begin(), pixels.end(), pixels[0]) == kBlockPixels;
       if (owner.has_ccd_) {
         context.ccd_indices = indices.data();
-        context.ccd_largest = largest.data();
+        context.ccd_widths = widths.data();
       }
       context.ras_bits = ras_stream_bits(block.pixels.data(), kBlockSide, owner.format_, false);
       context.ras_ycocg_bits = ras_stream_bits(block.pixels.data(), kBlockSide, owner.format_, true);
     }
-    alignas(64) std::array<uint32_t, kBlockPixels> pixels, indices, largest;
+    std::array<uint32_t, kBlockPixels> pixels;
+    std::array<uint16_t, kBlockPixels> indices;
+    std::array<uint8_t, kSubBlocks> widths;
     BlockContext context;
   };
   const FormatTraits format_;

@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 
+#include "dcp/ccd.h"
 #include "dcp/fvc.h"
 #include "simd/kernels.h"
 #include "surface_patterns.h"
@@ -93,11 +94,16 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
     const uint64_t alike = kernels().compact(pixels.data(), mask, pixels[5], packed);
     const auto kept = static_cast<size_t>(std::popcount(mask));
     const uint64_t begins = kernels().run_begins(pixels.data());
-    uint32_t indices[64], largest[64], words[16], widths[16], other_words[16], other_widths[16];
-    for (uint32_t i = 0; i < 64; ++i) indices[i] = i % 16 < 4 ? kNotInCcd : dice.below(1u << dice.below(8));
-    for (uint32_t i = 0; i < 64; ++i)
-      largest[i] = *std::max_element(indices + i / 4 * 4, indices + i / 4 * 4 + 4);
-    kernels().pack(indices, largest, kNotInCcd, words, widths);
+    uint16_t indices[64];
+    uint8_t widths[16];
+    uint32_t words[16], other_words[16];
+    for (uint16_t& index : indices) index = static_cast<uint16_t>(dice.below(1u << dice.below(9)));
+    for (uint32_t s = 0; s < 16; ++s)
+      widths[s] = s % 4 == 1 ? kRawWidth : width_of(*std::max_element(indices + 4 * s, indices + 4 * s + 4));
+    kernels().pack(indices, widths, words);
+    const uint32_t raw_bits = 16 + round % 2 * 16, limit = dice.below(11);
+    const uint32_t width_sum = kernels().width_sum(widths, raw_bits);
+    const uint32_t narrow = kernels().count_up_to(widths, limit);
     for (const std::string_view each : simd_targets()) {
       SCOPED_TRACE(each);
       force_simd_target(each);
@@ -110,8 +116,9 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
       ASSERT_EQ(kernels().compact(pixels.data(), mask, pixels[5], other_packed), alike);
       ASSERT_TRUE(std::equal(packed, packed + kept, other_packed));
       ASSERT_EQ(kernels().run_begins(pixels.data()), begins);
-      kernels().pack(indices, largest, kNotInCcd, other_words, other_widths);
-      ASSERT_TRUE(std::equal(widths, widths + 16, other_widths));
+      kernels().pack(indices, widths, other_words);
+      ASSERT_EQ(kernels().width_sum(widths, raw_bits), width_sum);
+      ASSERT_EQ(kernels().count_up_to(widths, limit), narrow);
       for (uint32_t sub = 0; sub < 16; ++sub)
         ASSERT_TRUE(widths[sub] == kRawWidth || words[sub] == other_words[sub]);
       ASSERT_EQ(kernels().is_solid(pixels.data(), 8, pixels[0]),

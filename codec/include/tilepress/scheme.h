@@ -17,7 +17,9 @@ namespace tilepress {
 
 struct Ccd;
 
-constexpr uint32_t kNotInCcd = 0xFFFF;
+constexpr uint16_t kNotInCcd = 0xFFFF;
+/// Stands for the width of a sub-block with a pixel that is not in the CCD.
+constexpr uint8_t kRawWidth = 0xFF;
 
 /// What a scheme may know when a frame begins.
 struct FrameContext {
@@ -34,8 +36,8 @@ struct BlockContext {
   uint32_t bx = 0, by = 0;                ///< block column and row
   const uint32_t* pixels = nullptr;       ///< the block's pixels
   bool uniform = false;                   ///< all pixels are equal
-  const uint32_t* ccd_indices = nullptr;  ///< CCD index, kNotInCcd where absent; null without a CCD
-  const uint32_t* ccd_largest = nullptr;  ///< the largest ccd_indices of the position's sub-block
+  const uint16_t* ccd_indices = nullptr;  ///< CCD index, kNotInCcd where absent; null without a CCD
+  const uint8_t* ccd_widths = nullptr;    ///< by sub-block: bit width of its largest index, or kRawWidth
   uint32_t ras_bits = 0;                  ///< RAS stream of the RGBA planes, not rounded
   uint32_t ras_ycocg_bits = 0;            ///< the same of the YCoCg-R planes
 };
