@@ -77,6 +77,9 @@ struct SurfaceEngine::State {
   } run;
   FewColors few;  ///< of the block being visited
   bool is_few = false;
+  BlockKeys keys;          ///< of the block being visited, unless of one colour
+  bool wants_keys = false;  ///< a collector makes use of them
+  bool wants_few = false;   ///< likewise, or the meter does
   uint32_t few_score = 0;                 ///< how well it went lately to look for few colours
   uint32_t until_few = 0;                 ///< blocks not to look at, when it went badly
   std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere
@@ -136,6 +139,8 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
     can_repeat &= !lane.needs.place && !options.verify;
     lanes.push_back(std::move(lane));
   }
+  wants_keys = kernels().finds_slots && !collectors.empty();
+  wants_few = wants_keys ? options.frame_metrics : !collectors.empty();
 }
 
 void SurfaceEngine::State::begin_frame() {
@@ -214,7 +219,8 @@ void SurfaceEngine::State::collect(const BlockContext& block) {
   }
   const FewColors* whole_few = is_few && count == kBlockPixels ? &few : nullptr;
   if (options.frame_metrics) whole_few != nullptr ? meter.see_block(few) : meter.see_all(pixels, count);
-  for (Collector& collector : collectors) collector.see_all(pixels, count, whole_few);
+  const BlockKeys* whole_keys = wants_keys && count == kBlockPixels ? &keys : nullptr;
+  for (Collector& collector : collectors) collector.see_all(pixels, count, whole_few, whole_keys);
 }
 
 /// Blocks of one colour come in rows: each counts like the one before. False if this one does not.
@@ -241,7 +247,7 @@ void SurfaceEngine::State::settle_repeats() {
 /// where blocks have many colours few of them are looked at. What comes out does not depend on it.
 bool SurfaceEngine::State::split_few(const uint32_t* pixels) {
   constexpr uint32_t kBest = 12, kFailure = 4, kPause = 7;
-  if (collectors.empty() || until_few > 0) {
+  if (!wants_few || until_few > 0) {
     until_few -= until_few > 0;
     return false;
   }
@@ -258,14 +264,14 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
   alignas(64) uint32_t pixels[kBlockPixels];
   Block block;
   BlockContext context{.block = block, .bx = bx, .by = by, .pixels = pixels};
-  context.uniform = kernels().load_traversal(top_left, now.stride(), pixels);
+  context.uniform = kernels().load_traversal(top_left, now.stride(), pixels, wants_keys ? &keys : nullptr);
   is_few = !context.uniform && split_few(pixels);
   last.solid = context.uniform;
   last.color = pixels[0];
   if (needs_raster || (needs_raster_to_encode && !surfaces.empty())) now.load_block(bx, by, block);
   for (Collector& collector : collectors) {
     if (collector.wanted && collector.ccd() != nullptr)
-      collector.look_up(pixels, context.uniform, is_few ? &few : nullptr);
+      collector.look_up(pixels, context.uniform, is_few ? &few : nullptr, wants_keys ? &keys : nullptr);
   }
   if (needs_ras) context.ras_bits = ras_bits(context, top_left, format, false);
   if (needs_ras_ycocg) context.ras_ycocg_bits = ras_bits(context, top_left, format, true);

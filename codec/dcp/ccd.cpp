@@ -28,6 +28,11 @@ void Ccd::build(const Fvc& fvc) {
 }
 
 void CcdLookup::build(const Ccd& ccd) {
+  has_slots_ = kernels().finds_slots && ccd.entries <= SlotTable::kSlots;
+  if (has_slots_) {
+    slots_.clear();
+    for (uint32_t i = 0; i < ccd.colors.size(); ++i) slots_.insert(i, ccd.colors[i]);
+  }
   constexpr uint32_t kTries = 64;
   const uint32_t buckets = std::max(16u, ccd.entries * (ccd.entries <= 128 ? 32 : 64));
   collision_free_ = false;
@@ -56,7 +61,9 @@ bool CcdLookup::place_all(const Ccd& ccd, bool probing) {
   return true;
 }
 
-void CcdLookup::find_block(const uint32_t* pixels, uint16_t* indices, uint8_t* widths) const {
+void CcdLookup::find_block(const uint32_t* pixels, const BlockKeys* keys, uint16_t* indices,
+                           uint8_t* widths) const {
+  if (keys != nullptr && has_slots_) return kernels().index_slots(*keys, slots_, indices, widths);
   if (collision_free_) return kernels().find(pixels, table_, indices, widths);
   uint32_t last_color = pixels[0];
   uint16_t last_index = find(last_color);

@@ -45,9 +45,9 @@ class CcdLookup {
       if (table_.values[at] == kNotInCcd || table_.colors[at] == color)
         return static_cast<uint16_t>(table_.values[at]);
   }
-  /// A block of 64 pixels in traversal order: its indices, and the widths of its sub-blocks; see
-  /// BlockContext.
-  void find_block(const uint32_t* pixels, uint16_t* indices, uint8_t* widths) const;
+  /// A block of 64 pixels in traversal order, `keys` null or of the same: its indices, and the widths of its
+  /// sub-blocks; see BlockContext.
+  void find_block(const uint32_t* pixels, const BlockKeys* keys, uint16_t* indices, uint8_t* widths) const;
   /// The same for a block of few colours.
   void find_block(const uint32_t* pixels, const FewColors& few, uint16_t* indices, uint8_t* widths) const;
 
@@ -55,6 +55,8 @@ class CcdLookup {
   bool place_all(const Ccd& ccd, bool probing);
   ProbeTable table_;
   bool collision_free_ = false;
+  SlotTable slots_;
+  bool has_slots_ = false;  ///< slots_ holds the dictionary, too
 };
 
 /// The reversed dictionary that travels with a compressed surface: slots of a valid bit and a colour, so

@@ -23,14 +23,15 @@ void Collector::see_run(uint32_t color, uint32_t count) {
   fast_ ? fast_->see_run(color, count) : fvc_.see_run(color, count);
 }
 
-void Collector::see_all(const uint32_t* pixels, uint32_t count, const FewColors* few) {
+void Collector::see_all(const uint32_t* pixels, uint32_t count, const FewColors* few,
+                        const BlockKeys* keys) {
   if (!collecting_) return;
   if (!fast_) {
     fvc_.see_all(pixels, count);
   } else if (count < kBlockPixels) {
     for (uint32_t i = 0; i < count; ++i) fast_->see_run(pixels[i], 1);
   } else if (few == nullptr || !fast_->see_block(*few)) {
-    fast_->see_block(pixels);
+    fast_->see_block(pixels, keys);
   }
 }
 
@@ -45,9 +46,10 @@ void Collector::build_ccd() {
   has_ccd_ = true;
 }
 
-void Collector::look_up(const uint32_t* pixels, bool uniform, const FewColors* few) {
-  if (few != nullptr) return lookup_.find_block(pixels, *few, indices_.data(), widths_.data());
-  if (!uniform) return lookup_.find_block(pixels, indices_.data(), widths_.data());
+void Collector::look_up(const uint32_t* pixels, bool uniform, const FewColors* few, const BlockKeys* keys) {
+  if (few != nullptr && keys == nullptr)
+    return lookup_.find_block(pixels, *few, indices_.data(), widths_.data());
+  if (!uniform) return lookup_.find_block(pixels, keys, indices_.data(), widths_.data());
   const uint16_t index = lookup_.find(pixels[0]);
   indices_.fill(index);
   widths_.fill(width_of(index));

@@ -24,15 +24,16 @@ class Collector {
   void begin_frame(uint64_t ordinal);
   /// `count` pixels of one colour in a row.
   void see_run(uint32_t color, uint32_t count);
-  /// Pixels in traversal order. `few`: their colours, if they are a whole block of few; else null.
-  void see_all(const uint32_t* pixels, uint32_t count, const FewColors* few);
+  /// Pixels in traversal order. Of a whole block also `few`, its colours if they are few, and `keys`, or
+  /// null.
+  void see_all(const uint32_t* pixels, uint32_t count, const FewColors* few, const BlockKeys* keys);
   /// After the last pixel: fvc() holds what was collected.
   void end_frame();
   /// After end_frame(), for schemes that look colours up.
   void build_ccd();
 
   /// Of a block in traversal order: indices() and widths(), see BlockContext. Precondition: ccd() is there.
-  void look_up(const uint32_t* pixels, bool uniform, const FewColors* few);
+  void look_up(const uint32_t* pixels, bool uniform, const FewColors* few, const BlockKeys* keys);
 
   const Fvc& fvc() const { return fvc_; }
   const Ccd* ccd() const { return has_ccd_ ? &ccd_ : nullptr; }  ///< null: none yet

@@ -12,19 +12,25 @@ namespace tilepress {
 namespace {
 constexpr uint32_t kBucketsPerEntry = 16;
 constexpr uint32_t kFewHits = 24;  ///< so few are counted one by one; of more, all lanes without a branch
+constexpr uint32_t kFewRuns = 12;  ///< so few runs of a slot are counted run by run
 }  // namespace
 
 LfcCollector::LfcCollector(uint32_t entries)
-    : entries_(entries), slot_places_(entries, kNoSlot), slot_colors_(entries) {
+    : entries_(entries),
+      by_slots_(kernels().finds_slots && entries <= SlotTable::kSlots),
+      slot_places_(entries, kNoSlot),
+      slot_colors_(entries) {
   table_.multiplier = ProbeTable::multiplier_of(0);
-  table_.reset(entries * kBucketsPerEntry, false);
-  copy_stride_ = table_.size() + 1 + kMaxCrowded;
-  counts_.assign(size_t{copy_stride_} * 4, 0);
+  table_.reset(by_slots_ ? 2 : entries * kBucketsPerEntry, false);
+  copy_stride_ = by_slots_ ? SlotTable::kAbsent + 1 : table_.size() + 1 + kMaxCrowded;
+  counts_.resize(size_t{copy_stride_} * 4);
+  reset();
 }
 
 void LfcCollector::reset() {
-  table_.reset(table_.size(), false);
+  by_slots_ ? slots_.clear() : table_.reset(table_.size(), false);
   std::fill(counts_.begin(), counts_.end(), 0u);
+  if (by_slots_) std::fill_n(counts_.begin(), SlotTable::kSlots, kNoCount);
   std::fill(slot_places_.begin(), slot_places_.end(), kNoSlot);
   used_ = crowded_ = 0;
   samples_ = 0;
@@ -32,6 +38,7 @@ void LfcCollector::reset() {
 }
 
 uint32_t LfcCollector::place_of(uint32_t color) const {
+  if (by_slots_) return slots_.find(color);
   const uint32_t bucket = table_.bucket(color);
   if (table_.colors[bucket] == color) return bucket;
   for (uint32_t i = 0; i < crowded_; ++i)
@@ -45,10 +52,12 @@ uint32_t LfcCollector::count_at(uint32_t place) const {
 }
 
 void LfcCollector::add_member(uint32_t slot, uint32_t color, uint32_t count) {
-  const uint32_t bucket = table_.bucket(color);
-  uint32_t place = bucket;
-  if (table_.colors[bucket] == table_.filler(bucket)) {
+  uint32_t place = slot;
+  if (by_slots_) {
+    slots_.insert(slot, color);
+  } else if (const uint32_t bucket = table_.bucket(color); table_.colors[bucket] == table_.filler(bucket)) {
     table_.colors[bucket] = color;
+    place = bucket;
   } else {
     if (crowded_ == kMaxCrowded) {
       rehash();
@@ -64,9 +73,19 @@ void LfcCollector::add_member(uint32_t slot, uint32_t color, uint32_t count) {
   slot_colors_[slot] = color;
 }
 
+/// A slot without a member is never the smallest.
+void LfcCollector::forget_counts(uint32_t slot) {
+  counts_[slot] = kNoCount;
+  for (uint32_t copy = 1; copy < 4; ++copy) counts_[slot + copy * copy_stride_] = 0;
+}
+
 void LfcCollector::remove_member(uint32_t slot) {
   const uint32_t place = slot_places_[slot];
   slot_places_[slot] = kNoSlot;
+  if (by_slots_) {
+    forget_counts(slot);
+    return slots_.remove(slot);
+  }
   if (place < table_.size()) {
     table_.colors[place] = table_.filler(place);
     return;
@@ -117,30 +136,34 @@ void LfcCollector::fill_slot(uint32_t color, uint32_t count) {
   floor_ = tail_count_;
 }
 
-/// After hits on the tail: if another slot is now the smallest, it becomes the tail. True if it did.
-bool LfcCollector::settle_tail() {
-  if (tail_count_ < floor_) return false;
-  uint32_t smallest_slot = kNoSlot, smallest = 0xFFFFFFFF, second = 0xFFFFFFFF;
+/// The smallest counts of the slots but the tail.
+Smallest LfcCollector::find_smallest() const {
+  if (by_slots_) return kernels().find_smallest(counts_.data(), copy_stride_);
+  Smallest found = {kNoSlot, kNoCount, kNoCount};
   for (uint32_t slot = 0; slot < entries_; ++slot) {
     if (slot == tail_slot_) continue;
     const uint32_t count = count_at(slot_places_[slot]);
-    if (count < smallest) {
-      second = smallest;
-      smallest = count;
-      smallest_slot = slot;
-    } else if (count < second) {
-      second = count;
-    }
+    if (count < found.smallest)
+      found = {slot, count, found.smallest};
+    else
+      found.second = std::min(found.second, count);
   }
-  floor_ = smallest;
-  if (tail_count_ < smallest || (tail_count_ == smallest && tail_slot_ < smallest_slot)) return false;
-  const uint32_t next_color = slot_colors_[smallest_slot];
-  remove_member(smallest_slot);
+  return found;
+}
+
+/// After hits on the tail: if another slot is now the smallest, it becomes the tail. True if it did.
+bool LfcCollector::settle_tail() {
+  if (tail_count_ < floor_) return false;
+  const Smallest found = find_smallest();
+  floor_ = found.smallest;
+  if (tail_count_ < found.smallest || (tail_count_ == found.smallest && tail_slot_ < found.at)) return false;
+  const uint32_t next_color = slot_colors_[found.at];
+  remove_member(found.at);
   add_member(tail_slot_, tail_color_, tail_count_);
-  floor_ = std::min(second, tail_count_);
-  tail_slot_ = smallest_slot;
+  floor_ = std::min(found.second, tail_count_);
+  tail_slot_ = found.at;
   tail_color_ = next_color;
-  tail_count_ = smallest;
+  tail_count_ = found.smallest;
   return true;
 }
 
@@ -157,17 +180,37 @@ void LfcCollector::see_run(uint32_t color, uint32_t count) {
   settle_tail();
 }
 
-/// The misses of a block at once: each takes the tail, and the last stays. False, and nothing happened, if so
-/// many are alike in a row that another slot may become the tail.
-bool LfcCollector::take_misses(const uint32_t* pixels, uint64_t misses) {
-  std::array<uint32_t, kLanes + 16> colors;
-  const uint64_t alike = kernels().compact(pixels, misses, tail_color_, colors.data());
-  if (alike != 0 && tail_count_ + bit_count(alike) >= floor_) return false;
+/// The misses of a block at once, if they are too few to make another slot the tail, however they are. False,
+/// and nothing happened, if not.
+bool LfcCollector::take_few_misses(const uint32_t* pixels, uint64_t misses) {
   const uint32_t count = bit_count(misses);
-  const auto run = static_cast<uint32_t>(std::countl_one(alike << (kLanes - count)));
-  tail_count_ = run == count ? tail_count_ + count : run + 1;
-  tail_color_ = colors[count - 1];
+  if (tail_count_ + count >= floor_) return false;
+  const uint32_t color = pixels[kLanes - 1 - static_cast<uint32_t>(std::countl_zero(misses))];
+  const uint64_t others = misses & ~kernels().places_of(pixels, color);
+  // The last of another colour; those behind it are a run.
+  const uint32_t run = others == 0 ? count : bit_count(misses & ~(~uint64_t{0} >> std::countl_zero(others)));
+  tail_count_ = others == 0 && color == tail_color_ ? tail_count_ + count : run;
+  tail_color_ = color;
   return true;
+}
+
+/// Of a number of misses, bit i of `alike` set where number i is of the colour of the one before it, or number 0
+/// of that of the tail: the number of the first at which the tail is hit and has as many as the floor; kLanes if
+/// there is none.
+uint32_t LfcCollector::first_to_settle(uint64_t alike) const {
+  const auto on_tail = static_cast<uint32_t>(std::countr_one(alike));
+  if (on_tail != 0 && tail_count_ + on_tail >= floor_)
+    return floor_ > tail_count_ ? floor_ - tail_count_ - 1 : 0;
+  // A colour takes the tail with a count of 1, and each that is alike adds 1.
+  const uint32_t wanted = std::max(floor_, 2u) - 1;
+  if (wanted >= kLanes) return kLanes;
+  uint64_t ends = alike & (alike + 1);  // without those on the tail
+  for (uint32_t have = 1; have < wanted && ends != 0;) {
+    const uint32_t more = std::min(have, wanted - have);
+    ends &= ends << more;
+    have += more;
+  }
+  return static_cast<uint32_t>(std::countr_zero(ends));
 }
 
 bool LfcCollector::see_block(const FewColors& few) {
@@ -181,46 +224,95 @@ bool LfcCollector::see_block(const FewColors& few) {
   return true;
 }
 
-void LfcCollector::see_block(const uint32_t* pixels) {
-  uint32_t places[kLanes];
-  uint32_t from = 0;  // pixels before are counted
-  const auto count_hits = [&](uint32_t to) {
-    for (; from < to; ++from) ++counts_[places[from] + (from & 3) * copy_stride_];
-  };
-  samples_ += kLanes;
-  while (from < kLanes) {
-    uint64_t misses =
-        ~kernels().members(pixels, table_, crowded_colors_.data(), crowded_, places) & ~uint64_t{0} << from;
-    bool changed = false;
-    if (misses != 0 && full() && take_misses(pixels, misses)) {
-      uint64_t hits = ~misses & ~uint64_t{0} << from;
-      if (bit_count(hits) < kFewHits) {
-        for (; hits != 0; hits &= hits - 1) {
-          const auto lane = static_cast<uint32_t>(std::countr_zero(hits));
-          ++counts_[places[lane] + (lane & 3) * copy_stride_];
-        }
-        return;
-      }
-      misses = 0;
+/// Counts pixels `from` to `to` at their places.
+template <class Place>
+void LfcCollector::count_hits(const Place* places, uint32_t from, uint32_t to) {
+  uint32_t* const copies[4] = {&counts_[0], &counts_[copy_stride_], &counts_[2 * copy_stride_],
+                               &counts_[3 * copy_stride_]};
+  for (; from < to && from % 4 != 0; ++from) ++copies[from % 4][places[from]];
+  for (; from + 4 <= to; from += 4)
+    for (uint32_t i = 0; i < 4; ++i) ++copies[i][places[from + i]];
+  for (; from < to; ++from) ++copies[from % 4][places[from]];
+}
+
+/// Counts pixels `from` to the last of a block, in the quickest way.
+template <class Place>
+void LfcCollector::count_rest(const Place* places, FoundSlots found, uint32_t from) {
+  if (from == kLanes) return;
+  const uint64_t rest = ~uint64_t{0} << from;
+  uint64_t begins = (found.begins & rest) | uint64_t{1} << from, hits = found.known & rest;
+  if (bit_count(begins) <= kFewRuns) {
+    while (begins != 0) {
+      const auto lane = static_cast<uint32_t>(std::countr_zero(begins));
+      begins &= begins - 1;
+      const uint32_t end = begins != 0 ? static_cast<uint32_t>(std::countr_zero(begins)) : kLanes;
+      counts_[places[lane]] += end - lane;
     }
-    for (; misses != 0 && !changed; misses &= misses - 1) {
+  } else if (bit_count(hits) <= kFewHits) {
+    for (; hits != 0; hits &= hits - 1) {
+      const auto lane = static_cast<uint32_t>(std::countr_zero(hits));
+      ++counts_[places[lane] + (lane & 3) * copy_stride_];
+    }
+  } else {
+    count_hits(places, from, kLanes);
+  }
+}
+
+/// `find(places)` finds the places of the block's pixels.
+template <class Place, class Find>
+void LfcCollector::take_block(const uint32_t* pixels, const Find& find) {
+  Place places[kLanes];
+  FoundSlots found = find(places);
+  if (found.known == ~uint64_t{0} || (full() && take_few_misses(pixels, ~found.known)))
+    return count_rest(places, found, 0);
+  for (uint32_t from = 0; from < kLanes; found = find(places)) {  // pixels before are counted
+    const auto count_to = [&](uint32_t lane) {
+      count_hits(places, from, lane);
+      from = lane;
+    };
+    uint64_t misses = ~found.known & ~uint64_t{0} << from;
+    bool changed = false;
+    if (misses != 0 && !full()) {
       const auto lane = static_cast<uint32_t>(std::countr_zero(misses));
-      const uint32_t color = pixels[lane];
-      if (!full()) {
-        count_hits(lane);
-        fill_slot(color, 1);
-        changed = true;
-      } else if (color != tail_color_) {
-        tail_color_ = color;
-        tail_count_ = 1;
-      } else if (++tail_count_ >= floor_) {
-        count_hits(lane);
+      count_to(lane + 1);
+      fill_slot(pixels[lane], 1);
+      changed = true;
+    } else if (misses != 0) {
+      std::array<uint32_t, kLanes + 16> colors;
+      uint64_t alike = kernels().compact(pixels, misses, tail_color_, colors.data());
+      for (uint32_t taken = 0; misses != 0 && !changed;) {
+        const uint32_t settles = first_to_settle(alike), left = bit_count(misses);
+        const uint32_t count = std::min(settles + 1, left);
+        const auto run = static_cast<uint32_t>(std::countl_one(alike << (kLanes - count)));
+        tail_count_ = run == count ? tail_count_ + count : run + 1;
+        tail_color_ = colors[taken + count - 1];
+        if (settles == kLanes) break;
+        for (uint32_t i = 0; i < settles; ++i) misses &= misses - 1;
+        const auto lane = static_cast<uint32_t>(std::countr_zero(misses));
+        misses &= misses - 1;
+        taken += count;
+        alike = alike >> settles >> 1;
+        count_to(lane + 1);
         changed = settle_tail();
       }
-      if (changed) from = lane + 1;
     }
-    if (!changed) count_hits(kLanes);
+    if (!changed) return count_rest(places, found, from);
   }
+}
+
+void LfcCollector::see_block(const uint32_t* pixels, const BlockKeys* keys) {
+  samples_ += kLanes;
+  if (by_slots_ && keys != nullptr)
+    return take_block<uint8_t>(
+        pixels, [&](uint8_t* slots) { return kernels().find_slots(*keys, slots_, slots); });
+  if (by_slots_) {
+    samples_ -= kLanes;
+    for (uint32_t i = 0; i < kLanes; ++i) see_run(pixels[i], 1);
+    return;
+  }
+  take_block<uint32_t>(pixels, [&](uint32_t* places) -> FoundSlots {
+    return {kernels().members(pixels, table_, crowded_colors_.data(), crowded_, places), ~uint64_t{0}};
+  });
 }
 
 void LfcCollector::store_to(Fvc& fvc) const {

@@ -29,8 +29,8 @@ class LfcCollector {
   /// entries: a power of two, 2..kMaxEntries.
   explicit LfcCollector(uint32_t entries);
   void reset();
-  /// A whole block, 64 pixels in traversal order.
-  void see_block(const uint32_t* pixels);
+  /// A whole block, 64 pixels in traversal order, `keys` null or of the same.
+  void see_block(const uint32_t* pixels, const BlockKeys* keys);
   /// The same for a block of few colours. False, and nothing happened, if not all of them are held.
   bool see_block(const FewColors& few);
   /// `count` pixels of one colour in a row.
@@ -40,9 +40,9 @@ class LfcCollector {
 
  private:
   static constexpr uint32_t kMaxCrowded = 8;
-  static constexpr uint32_t kNoSlot = 0xFFFFFFFF;
+  static constexpr uint32_t kNoSlot = 0xFFFFFFFF, kNoCount = 0xFFFFFFFF;
 
-  uint32_t outside() const { return table_.size(); }
+  uint32_t outside() const { return by_slots_ ? SlotTable::kAbsent : table_.size(); }
   uint32_t crowded_place(uint32_t i) const { return table_.size() + 1 + i; }
   bool full() const { return used_ == entries_; }
   uint32_t place_of(uint32_t color) const;
@@ -52,14 +52,25 @@ class LfcCollector {
   void rehash();
   void fill_slot(uint32_t color, uint32_t count);
   bool settle_tail();
-  bool take_misses(const uint32_t* pixels, uint64_t misses);
+  Smallest find_smallest() const;
+  void forget_counts(uint32_t slot);
+  bool take_few_misses(const uint32_t* pixels, uint64_t misses);
+  uint32_t first_to_settle(uint64_t alike) const;
+  template <class Place>
+  void count_hits(const Place* places, uint32_t from, uint32_t to);
+  template <class Place>
+  void count_rest(const Place* places, FoundSlots found, uint32_t from);
+  template <class Place, class Find>
+  void take_block(const uint32_t* pixels, const Find& find);
 
   const uint32_t entries_;
+  const bool by_slots_;  ///< slots_ holds the members, and a member's place is its slot; else table_ does
   uint32_t used_ = 0;  ///< slots filled
   uint64_t samples_ = 0;
   uint32_t tail_slot_ = 0, tail_color_ = 0, tail_count_ = 0;  ///< valid once full
   uint32_t floor_ = 0;                                        ///< no other slot has a smaller count
-  ProbeTable table_;      ///< colours of all slots but the tail, and but the crowded ones
+  SlotTable slots_;       ///< colours of all slots but the tail
+  ProbeTable table_;      ///< the same but the crowded ones
   uint32_t crowded_ = 0;  ///< colours whose bucket was taken
   std::array<uint32_t, kMaxCrowded> crowded_colors_{}, crowded_slots_{};
   uint32_t multiplier_index_ = 0;

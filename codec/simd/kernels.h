@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "simd/probe_table.h"
+#include "simd/slot_table.h"
 #include "tilepress/block.h"
 
 namespace tilepress {
@@ -23,12 +24,26 @@ struct FewColors {
   uint64_t places[kMost];  ///< bit i: pixel i is of this colour
 };
 
+struct FoundSlots {
+  uint64_t known;   ///< bit i: pixel i has a slot
+  uint64_t begins;  ///< bit i: pixel i is of another slot than the one before it; bit 0 is set
+};
+
+struct Smallest {
+  uint32_t at;        ///< the first of the smallest
+  uint32_t smallest;  ///< value
+  uint32_t second;    ///< the smallest of the others
+};
+
 struct Kernels {
   const char* name;
 
-  /// Copies an 8×8 block out of a plane (`stride` words from row to row) into traversal order.
-  /// True if all 64 pixels are equal.
-  bool (*load_traversal)(const uint32_t* top_left, uint32_t stride, uint32_t* pixels);
+  /// To find slots pays: find_slots and index_slots are quicker than members and find.
+  bool finds_slots;
+
+  /// Copies an 8×8 block out of a plane (`stride` words from row to row) into traversal order, and fills
+  /// `keys` unless null. True if all 64 pixels are equal; the keys are not filled then.
+  bool (*load_traversal)(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, BlockKeys* keys);
 
   /// True if all 64 pixels of an 8×8 block are `color`.
   bool (*is_solid)(const uint32_t* top_left, uint32_t stride, uint32_t color);
@@ -36,6 +51,15 @@ struct Kernels {
   /// indices[i] = the table's value of pixels[i], kNotInCcd if it has none; widths[s] = the bit width of the
   /// largest index of sub-block s, kRawWidth if one of its pixels has none. For collision-free tables.
   void (*find)(const uint32_t* pixels, const ProbeTable& table, uint16_t* indices, uint8_t* widths);
+
+  /// slots[i] = the slot of pixel i of the block, SlotTable::kAbsent if it has none.
+  FoundSlots (*find_slots)(const BlockKeys& keys, const SlotTable& table, uint8_t* slots);
+
+  /// As find, where the indices are slots.
+  void (*index_slots)(const BlockKeys& keys, const SlotTable& table, uint16_t* indices, uint8_t* widths);
+
+  /// Bit i of the result: pixels[i] is `color`.
+  uint64_t (*places_of)(const uint32_t* pixels, uint32_t color);
 
   /// False if the block has too many colours, see FewColors.
   bool (*split)(const uint32_t* pixels, FewColors& out);
@@ -58,6 +82,9 @@ struct Kernels {
   /// or table size + 1 + its number among the crowded; table size for the others.
   uint64_t (*members)(const uint32_t* pixels, const ProbeTable& table, const uint32_t* crowded_colors,
                       uint32_t crowded, uint32_t* places);
+
+  /// Of 64 values, number i being the sum of counts[i + n · stride] for n = 0 … 3.
+  Smallest (*find_smallest)(const uint32_t* counts, uint32_t stride);
 
   /// Packs the pixels whose bit of `mask` is set: out[0], out[1], ... in order; what follows them, up to
   /// out[79], may be overwritten. Bit i of the result: out[i] equals the one before it, out[0] `before`.

@@ -38,7 +38,8 @@ HWY_INLINE auto MaskOf(const Words& d, uint64_t bits) {
   return hn::LoadMaskBits(d, bytes);
 }
 
-bool LoadTraversal(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t* HWY_RESTRICT pixels) {
+bool LoadTraversal(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t* HWY_RESTRICT pixels,
+                   BlockKeys* keys) {
   const hn::Full128<uint64_t> d;  // two pixels a lane: sub-blocks interleave pairs of two rows
   const auto first = hn::Set(d, uint64_t{top_left[0]} << 32 | top_left[0]);
   auto difference = hn::Zero(d);
@@ -55,7 +56,9 @@ bool LoadTraversal(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint3
     }
   }
   const hn::Full128<uint32_t> d32;
-  return hn::AllTrue(d32, hn::Eq(hn::BitCast(d32, difference), hn::Zero(d32)));
+  const bool uniform = hn::AllTrue(d32, hn::Eq(hn::BitCast(d32, difference), hn::Zero(d32)));
+  if (keys != nullptr && !uniform) keys->fill(pixels);
+  return uniform;
 }
 
 bool IsSolid(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t color) {
@@ -115,17 +118,21 @@ void Find(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table, uint16_t
   out.Widths(widths);
 }
 
-bool Split(const uint32_t* HWY_RESTRICT pixels, FewColors& out) {
+uint64_t PlacesOf(const uint32_t* HWY_RESTRICT pixels, uint32_t color) {
   const Words d;
+  const auto wanted = hn::Set(d, color);
+  uint64_t places = 0;
+  for (size_t i = 0; i < kLanes; i += hn::Lanes(d))
+    places |= BitsOf(d, hn::Eq(hn::LoadU(d, pixels + i), wanted)) << i;
+  return places;
+}
+
+bool Split(const uint32_t* HWY_RESTRICT pixels, FewColors& out) {
   uint32_t count = 0, covered = 0;
   for (uint64_t left = ~uint64_t{0}; left != 0; ++count) {
     if (count == FewColors::kMost || covered < count * FewColors::kPixelsPerColor) return false;
     const uint32_t color = pixels[__builtin_ctzll(left)];
-    const auto wanted = hn::Set(d, color);
-    uint64_t places = 0;
-    for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
-      places |= BitsOf(d, hn::Eq(hn::LoadU(d, pixels + i), wanted)) << i;
-    }
+    const uint64_t places = PlacesOf(pixels, color);
     out.colors[count] = color;
     out.places[count] = places;
     left &= ~places;
@@ -205,6 +212,29 @@ uint64_t Members(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table,
     mask |= BitsOf(d, hn::Ne(place, outside)) << i;
   }
   return mask;
+}
+
+Smallest FindSmallest(const uint32_t* HWY_RESTRICT counts, uint32_t stride) {
+  const Words d;
+  HWY_ALIGN uint32_t sums[kLanes];
+  auto smallest = hn::Set(d, ~0u);
+  for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) {
+    auto sum = hn::LoadU(d, counts + i);
+    for (size_t n = 1; n < 4; ++n) sum = hn::Add(sum, hn::LoadU(d, counts + i + n * stride));
+    hn::Store(sum, d, sums + i);
+    smallest = hn::Min(smallest, sum);
+  }
+  Smallest found;
+  found.smallest = hn::GetLane(hn::MinOfLanes(d, smallest));
+  const uint64_t places = PlacesOf(sums, found.smallest);
+  found.at = static_cast<uint32_t>(__builtin_ctzll(places));
+  found.second = found.smallest;
+  if ((places & (places - 1)) != 0) return found;
+  sums[found.at] = ~0u;
+  smallest = hn::Set(d, ~0u);
+  for (size_t i = 0; i < kLanes; i += hn::Lanes(d)) smallest = hn::Min(smallest, hn::Load(d, sums + i));
+  found.second = hn::GetLane(hn::MinOfLanes(d, smallest));
+  return found;
 }
 
 uint64_t Compact(const uint32_t* HWY_RESTRICT pixels, uint64_t mask, uint32_t before,
@@ -335,9 +365,28 @@ void WidenBytes(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, int16_t*
 }
 
 const Kernels& Set(const char* name) {
-  static const Kernels kSet = {name,    LoadTraversal, IsSolid,     Find,       Split,
-                               FindFew, WidthSum,      Pack,        CountUpTo,  Members,
-                               Compact, RunBegins,     RasCodeBits, ReplaceRow, WidenBytes};
+  static const Kernels kSet = {
+      .name = name,
+      .finds_slots = false,
+      .load_traversal = LoadTraversal,
+      .is_solid = IsSolid,
+      .find = Find,
+      .find_slots = find_slots_plainly,
+      .index_slots = index_slots_plainly,
+      .places_of = PlacesOf,
+      .split = Split,
+      .find_few = FindFew,
+      .width_sum = WidthSum,
+      .pack = Pack,
+      .count_up_to = CountUpTo,
+      .members = Members,
+      .find_smallest = FindSmallest,
+      .compact = Compact,
+      .run_begins = RunBegins,
+      .ras_code_bits = RasCodeBits,
+      .replace_row = ReplaceRow,
+      .widen_bytes = WidenBytes,
+  };
   return kSet;
 }
 
@@ -359,7 +408,11 @@ std::vector<const Kernels*> highway_kernels() {
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512cd"))
+  {
+    if (const Kernels* better = byte_permute_kernels(N_AVX3::Set("avx512")); better != nullptr)
+      sets.push_back(better);
     sets.push_back(&N_AVX3::Set("avx512"));
+  }
 #endif
 #if HWY_TARGETS & HWY_AVX2
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))

@@ -12,12 +12,13 @@
 namespace tilepress {
 namespace {
 
-bool load_traversal(const uint32_t* top_left, uint32_t stride, uint32_t* pixels) {
+bool load_traversal(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, BlockKeys* keys) {
   bool uniform = true;
   for (uint32_t i = 0; i < kLanes; ++i) {
     pixels[i] = top_left[kTraversal[i] / 8 * stride + kTraversal[i] % 8];
     uniform &= pixels[i] == pixels[0];
   }
+  if (keys != nullptr && !uniform) keys->fill(pixels);
   return uniform;
 }
 
@@ -44,14 +45,19 @@ void find(const uint32_t* pixels, const ProbeTable& table, uint16_t* indices, ui
   fill_widths(indices, widths);
 }
 
+uint64_t places_of(const uint32_t* pixels, uint32_t color) {
+  uint64_t places = 0;
+  for (uint32_t i = 0; i < kLanes; ++i) places |= uint64_t{pixels[i] == color} << i;
+  return places;
+}
+
 bool split(const uint32_t* pixels, FewColors& out) {
   out.count = 0;
   for (uint64_t left = ~uint64_t{0}; left != 0;) {
     const auto covered = static_cast<uint32_t>(kLanes - std::popcount(left));
     if (out.count == FewColors::kMost || covered < out.count * FewColors::kPixelsPerColor) return false;
     const uint32_t color = pixels[std::countr_zero(left)];
-    uint64_t places = 0;
-    for (uint32_t i = 0; i < kLanes; ++i) places |= uint64_t{pixels[i] == color} << i;
+    const uint64_t places = places_of(pixels, color);
     out.colors[out.count] = color;
     out.places[out.count++] = places;
     left &= ~places;
@@ -98,6 +104,19 @@ uint64_t members(const uint32_t* pixels, const ProbeTable& table, const uint32_t
     mask |= uint64_t{places[i] != table.size()} << i;
   }
   return mask;
+}
+
+Smallest find_smallest(const uint32_t* counts, uint32_t stride) {
+  Smallest found = {0, ~0u, ~0u};
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    uint32_t count = 0;
+    for (uint32_t n = 0; n < 4; ++n) count += counts[i + n * stride];
+    if (count < found.smallest)
+      found = {i, count, found.smallest};
+    else
+      found.second = std::min(found.second, count);
+  }
+  return found;
 }
 
 uint64_t compact(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out) {
@@ -163,10 +182,49 @@ void widen_bytes(const uint32_t* top_left, uint32_t stride, int16_t* samples) {
 
 }  // namespace
 
+FoundSlots find_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint8_t* slots) {
+  FoundSlots found = {0, 1};
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    uint32_t color = 0;
+    for (uint32_t c = 0; c < 4; ++c) color |= uint32_t{keys.bytes[c][i]} << 8 * c;
+    slots[i] = static_cast<uint8_t>(table.find(color));
+    found.known |= uint64_t{slots[i] != SlotTable::kAbsent} << i;
+    if (i > 0) found.begins |= uint64_t{slots[i] != slots[i - 1]} << i;
+  }
+  return found;
+}
+
+void index_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint16_t* indices,
+                         uint8_t* widths) {
+  uint8_t slots[kLanes];
+  find_slots_plainly(keys, table, slots);
+  for (uint32_t i = 0; i < kLanes; ++i) indices[i] = slots[i] == SlotTable::kAbsent ? kNotInCcd : slots[i];
+  fill_widths(indices, widths);
+}
+
 const Kernels& scalar_kernels() {
-  static const Kernels kScalar = {"scalar", load_traversal, is_solid,      find,        split,
-                                  find_few, width_sum,      pack,          count_up_to, members,
-                                  compact,  run_begins,     ras_code_bits, replace_row, widen_bytes};
+  static const Kernels kScalar = {
+      .name = "scalar",
+      .finds_slots = false,
+      .load_traversal = load_traversal,
+      .is_solid = is_solid,
+      .find = find,
+      .find_slots = find_slots_plainly,
+      .index_slots = index_slots_plainly,
+      .places_of = places_of,
+      .split = split,
+      .find_few = find_few,
+      .width_sum = width_sum,
+      .pack = pack,
+      .count_up_to = count_up_to,
+      .members = members,
+      .find_smallest = find_smallest,
+      .compact = compact,
+      .run_begins = run_begins,
+      .ras_code_bits = ras_code_bits,
+      .replace_row = replace_row,
+      .widen_bytes = widen_bytes,
+  };
   return kScalar;
 }
 

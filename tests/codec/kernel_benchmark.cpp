@@ -29,8 +29,10 @@ void fvc(benchmark::State& state, uint32_t pattern) {
   const std::vector<uint32_t> pixels = blocks_of(pattern);
   LfcCollector collector(64);
   size_t at = 0;
+  uint32_t block[kBlockPixels];
+  BlockKeys keys;
   for (auto _ : state) {
-    collector.see_block(&pixels[at]);
+    if (!kernels().load_traversal(&pixels[at], kBlockSide, block, &keys)) collector.see_block(block, &keys);
     at = (at + kBlockPixels) % pixels.size();
   }
   set_rate(state);

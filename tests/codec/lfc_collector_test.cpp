@@ -68,8 +68,11 @@ TEST(LfcCollector, HoldsWhatThePlainFvcHolds) {
           fast.see_run(pixels[0], kBlockPixels);
         else if (kernels().split(pixels.data(), few) && fast.see_block(few))
           ++few_taken;
-        else
-          fast.see_block(pixels.data());
+        else {
+          BlockKeys keys;
+          keys.fill(pixels.data());
+          fast.see_block(pixels.data(), block % 3 == 0 ? nullptr : &keys);
+        }
         if (block % 7 != 0) continue;
         fast.store_to(fast_slots);
         ASSERT_EQ(differences(plain, fast_slots), "")
@@ -94,6 +97,10 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
     const uint64_t alike = kernels().compact(pixels.data(), mask, pixels[5], packed);
     const auto kept = static_cast<size_t>(std::popcount(mask));
     const uint64_t begins = kernels().run_begins(pixels.data());
+    const uint64_t places = kernels().places_of(pixels.data(), pixels[7]);
+    uint32_t counts[3 * 70 + 64];
+    for (uint32_t& count : counts) count = dice.below(1u << dice.below(9));
+    const Smallest smallest = kernels().find_smallest(counts, 70);
     uint16_t indices[64];
     uint8_t widths[16];
     uint32_t words[16], other_words[16];
@@ -116,6 +123,11 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
       ASSERT_EQ(kernels().compact(pixels.data(), mask, pixels[5], other_packed), alike);
       ASSERT_TRUE(std::equal(packed, packed + kept, other_packed));
       ASSERT_EQ(kernels().run_begins(pixels.data()), begins);
+      ASSERT_EQ(kernels().places_of(pixels.data(), pixels[7]), places);
+      const Smallest other_smallest = kernels().find_smallest(counts, 70);
+      ASSERT_EQ(other_smallest.at, smallest.at);
+      ASSERT_EQ(other_smallest.smallest, smallest.smallest);
+      ASSERT_EQ(other_smallest.second, smallest.second);
       kernels().pack(indices, widths, other_words);
       ASSERT_EQ(kernels().width_sum(widths, raw_bits), width_sum);
       ASSERT_EQ(kernels().count_up_to(widths, limit), narrow);
