@@ -139,7 +139,7 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
     can_repeat &= !lane.needs.place && !options.verify;
     lanes.push_back(std::move(lane));
   }
-  wants_keys = kernels().finds_slots && !collectors.empty();
+  wants_keys = kernels().byte_permutes && !collectors.empty();
   wants_few = wants_keys ? options.frame_metrics : !collectors.empty();
 }
 

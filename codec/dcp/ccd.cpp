@@ -28,7 +28,7 @@ void Ccd::build(const Fvc& fvc) {
 }
 
 void CcdLookup::build(const Ccd& ccd) {
-  has_slots_ = kernels().finds_slots && ccd.entries <= SlotTable::kSlots;
+  has_slots_ = kernels().byte_permutes && ccd.entries <= SlotTable::kSlots;
   if (has_slots_) {
     slots_.clear();
     for (uint32_t i = 0; i < ccd.colors.size(); ++i) slots_.insert(i, ccd.colors[i]);

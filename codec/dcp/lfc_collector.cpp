@@ -12,12 +12,12 @@ namespace tilepress {
 namespace {
 constexpr uint32_t kBucketsPerEntry = 16;
 constexpr uint32_t kFewHits = 24;  ///< so few are counted one by one; of more, all lanes without a branch
-constexpr uint32_t kFewRuns = 12;  ///< so few runs of a slot are counted run by run
+constexpr uint32_t kFewRuns = 24;  ///< where there are so few, slots are counted one by one
 }  // namespace
 
 LfcCollector::LfcCollector(uint32_t entries)
     : entries_(entries),
-      by_slots_(kernels().finds_slots && entries <= SlotTable::kSlots),
+      by_slots_(kernels().byte_permutes && entries <= SlotTable::kSlots),
       slot_places_(entries, kNoSlot),
       slot_colors_(entries) {
   table_.multiplier = ProbeTable::multiplier_of(0);
@@ -240,21 +240,14 @@ template <class Place>
 void LfcCollector::count_rest(const Place* places, FoundSlots found, uint32_t from) {
   if (from == kLanes) return;
   const uint64_t rest = ~uint64_t{0} << from;
-  uint64_t begins = (found.begins & rest) | uint64_t{1} << from, hits = found.known & rest;
-  if (bit_count(begins) <= kFewRuns) {
-    while (begins != 0) {
-      const auto lane = static_cast<uint32_t>(std::countr_zero(begins));
-      begins &= begins - 1;
-      const uint32_t end = begins != 0 ? static_cast<uint32_t>(std::countr_zero(begins)) : kLanes;
-      counts_[places[lane]] += end - lane;
-    }
-  } else if (bit_count(hits) <= kFewHits) {
-    for (; hits != 0; hits &= hits - 1) {
-      const auto lane = static_cast<uint32_t>(std::countr_zero(hits));
-      ++counts_[places[lane] + (lane & 3) * copy_stride_];
-    }
-  } else {
-    count_hits(places, from, kLanes);
+  uint64_t hits = found.known & rest;
+  const bool few_runs = bit_count(found.begins & rest) <= kFewRuns;
+  if (!few_runs && bit_count(hits) > kFewHits) return count_hits(places, from, kLanes);
+  if constexpr (sizeof(Place) == 1)
+    if (few_runs) hits = kernels().count_slots(places, hits, counts_.data());
+  for (; hits != 0; hits &= hits - 1) {
+    const auto lane = static_cast<uint32_t>(std::countr_zero(hits));
+    ++counts_[places[lane] + (lane & 3) * copy_stride_];
   }
 }
 

@@ -20,24 +20,38 @@ inline uint32_t vdcp_measure(const BlockContext& block, uint32_t pixel_bits) {
 /// Up to this width the indices of two sub-blocks fit into one put.
 constexpr uint32_t kMaxPairedBits = kMaxBitsPerCall / (2 * kSubBlockPixels);
 
-/// Writes a block: per sub-block `csb_width` ≤ 5 CSB bits holding the width, or `raw_mark` for a raw one.
+/// Widths of indices that Kernels::write_sub_blocks writes.
+constexpr uint32_t kMaxWrittenBits = 7;
+
+/// Writes a block: per sub-block `csb_width` ≤ 5 CSB bits holding the width, or all ones for a raw one.
 /// `look_up` = false: all raw. Indices have at most `index_bits` bits.
 inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t index_bits, uint32_t pixel_bits,
-                        uint32_t csb_width, uint32_t raw_mark, BitWriter& payload, BitWriter& csb) {
+                        uint32_t csb_width, BitWriter& payload, BitWriter& csb) {
   static constexpr auto kAllRaw = [] {
     std::array<uint8_t, kSubBlocks> raw;
     raw.fill(kRawWidth);
     return raw;
   }();
   const uint8_t* widths = look_up ? block.ccd_widths : kAllRaw.data();
+  const uint32_t half_bits = kSubBlocks / 2 * csb_width;
+  if (pixel_bits == 32 && index_bits <= kMaxWrittenBits && kernels().byte_permutes)
+    if (uint8_t* out = payload.at_byte(kMaxRawBlockBits / 8); out != nullptr) {
+      const WrittenBlock written =
+          kernels().write_sub_blocks(block.pixels, block.ccd_indices, widths, csb_width, out);
+      for (const uint64_t marks : written.marks) csb.put(marks, half_bits);
+      return payload.wrote(written.bits);
+    }
+  for (uint32_t half = 0; half < kSubBlocks; half += kSubBlocks / 2) {
+    uint64_t marks = 0;
+    for (uint32_t sub = half; sub < half + kSubBlocks / 2; ++sub)
+      marks = marks << csb_width | (widths[sub] & ((1u << csb_width) - 1));  // all ones of kRawWidth
+    csb.put(marks, half_bits);
+  }
   if (block.uniform && widths[0] != kRawWidth) {  // sixteen equal sub-blocks
     const uint64_t index = block.ccd_indices[0];
     const uint32_t width = widths[0];
-    uint64_t marks = 0, indices = 0;
-    for (uint32_t sub = 0; sub < 8; ++sub) marks = marks << csb_width | width;
+    uint64_t indices = 0;
     for (uint32_t i = 0; i < kSubBlockPixels; ++i) indices = indices << width | index;
-    csb.put(marks, 8 * csb_width);
-    csb.put(marks, 8 * csb_width);
     BitWriter out = payload;  // a copy stays in registers
     for (uint32_t sub = 0; sub < kSubBlocks && width != 0; ++sub) out.put(indices, kSubBlockPixels * width);
     payload = out;
@@ -47,13 +61,6 @@ inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t index_
   const bool pairs = look_up && index_bits <= kMaxPairedBits;
   if (pairs) kernels().pack(block.ccd_indices, widths, packed);
   BitWriter out = payload;
-  const auto two_marks = [&](uint32_t sub) {
-    const uint64_t first = widths[sub] == kRawWidth ? raw_mark : widths[sub];
-    return first << csb_width | (widths[sub + 1] == kRawWidth ? raw_mark : widths[sub + 1]);
-  };
-  const auto four_marks = [&](uint32_t sub) { return two_marks(sub) << 2 * csb_width | two_marks(sub + 2); };
-  for (uint32_t sub = 0; sub < kSubBlocks; sub += 8)
-    csb.put(four_marks(sub) << 4 * csb_width | four_marks(sub + 4), 8 * csb_width);
   for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
     const uint32_t at = sub * kSubBlockPixels, width = widths[sub];
     if (width == kRawWidth) {

@@ -33,7 +33,7 @@ class VdcpEncoder final : public DcpFamilyEncoder {
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     if (off_) return write_raw_block(block.pixels, pixel_bits_, payload);
     const uint32_t width = csb_width(index_bits_);
-    vdcp_encode(block, active(), index_bits_, pixel_bits_, width, (1u << width) - 1, payload, csb);
+    vdcp_encode(block, active(), index_bits_, pixel_bits_, width, payload, csb);
   }
 };
 

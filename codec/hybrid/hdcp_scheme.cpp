@@ -35,7 +35,7 @@ class HdcpEncoder final : public DcpFamilyEncoder {
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     const uint32_t cls = classes_.class_of(block.ras_bits);
     if (choose(block).vdcp)
-      return vdcp_encode(block, active(), index_bits_, pixel_bits_, kSubBlockCsbBits, kRawMark, payload, csb);
+      return vdcp_encode(block, active(), index_bits_, pixel_bits_, kSubBlockCsbBits, payload, csb);
     if (off_)
       csb.put(cls, classes_.csb_bits());
     else

@@ -15,8 +15,11 @@ std::vector<const Kernels*> highway_kernels();
 /// VBMI and VBMI2).
 const Kernels* byte_permute_kernels(const Kernels& base);
 
-// Where there are no byte permutes, slots are found as they are defined.
+// What there is for byte permutes only, plainly: the definition, and the other sets' own.
 FoundSlots find_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint8_t* slots);
+uint64_t count_slots_plainly(const uint8_t* slots, uint64_t wanted, uint32_t* counts);
 void index_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint16_t* indices, uint8_t* widths);
+WrittenBlock write_sub_blocks_plainly(const uint32_t* pixels, const uint16_t* indices, const uint8_t* widths,
+                                      uint32_t mark_bits, uint8_t* out);
 
 }  // namespace tilepress

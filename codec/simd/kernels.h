@@ -29,6 +29,11 @@ struct FoundSlots {
   uint64_t begins;  ///< bit i: pixel i is of another slot than the one before it; bit 0 is set
 };
 
+struct WrittenBlock {
+  uint32_t bits;      ///< written
+  uint64_t marks[2];  ///< of eight sub-blocks each, the low bits of their widths, the first on top
+};
+
 struct Smallest {
   uint32_t at;        ///< the first of the smallest
   uint32_t smallest;  ///< value
@@ -38,8 +43,8 @@ struct Smallest {
 struct Kernels {
   const char* name;
 
-  /// To find slots pays: find_slots and index_slots are quicker than members and find.
-  bool finds_slots;
+  /// find_slots, index_slots and write_sub_blocks are quicker than members, find and putting bits.
+  bool byte_permutes;
 
   /// Copies an 8×8 block out of a plane (`stride` words from row to row) into traversal order, and fills
   /// `keys` unless null. True if all 64 pixels are equal; the keys are not filled then.
@@ -54,6 +59,10 @@ struct Kernels {
 
   /// slots[i] = the slot of pixel i of the block, SlotTable::kAbsent if it has none.
   FoundSlots (*find_slots)(const BlockKeys& keys, const SlotTable& table, uint8_t* slots);
+
+  /// Adds to counts[slots[i]] the number of pixels of that slot, slot by slot, until those of `wanted` are
+  /// counted, or those of four slots are; returns the pixels left.
+  uint64_t (*count_slots)(const uint8_t* slots, uint64_t wanted, uint32_t* counts);
 
   /// As find, where the indices are slots.
   void (*index_slots)(const BlockKeys& keys, const SlotTable& table, uint16_t* indices, uint8_t* widths);
@@ -74,6 +83,13 @@ struct Kernels {
   /// packed[s] = the four indices of sub-block s, the first on top, of widths[s] bits each; of no meaning
   /// where that is kRawWidth. Widths up to 8.
   void (*pack)(const uint16_t* indices, const uint8_t* widths, uint32_t* packed);
+
+  /// Writes a block of 32-bit pixels as VDCP does: of each sub-block its indices, as many bits each as its
+  /// width says, or its pixels; from the most significant bit of out[0] on. Widths up to 7. What follows in
+  /// the last byte is 0, and up to 64 bytes behind may become so, within the 256 of a raw block. A mark has
+  /// `mark_bits` ≤ 7.
+  WrittenBlock (*write_sub_blocks)(const uint32_t* pixels, const uint16_t* indices, const uint8_t* widths,
+                                   uint32_t mark_bits, uint8_t* out);
 
   /// Number of sub-blocks of a width up to `limit` (below kRawWidth).
   uint32_t (*count_up_to)(const uint8_t* widths, uint32_t limit);

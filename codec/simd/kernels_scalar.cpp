@@ -6,6 +6,7 @@
 #include "ras/ras_samples.h"
 #include "simd/kernel_sets.h"
 #include "simd/replace_words.h"
+#include "tilepress/bit_io.h"
 #include "tilepress/block.h"
 #include "tilepress/scheme.h"
 
@@ -194,6 +195,18 @@ FoundSlots find_slots_plainly(const BlockKeys& keys, const SlotTable& table, uin
   return found;
 }
 
+uint64_t count_slots_plainly(const uint8_t* slots, uint64_t wanted, uint32_t* counts) {
+  for (uint32_t n = 0; n < 4 && wanted != 0; ++n) {
+    const uint8_t slot = slots[std::countr_zero(wanted)];
+    for (uint32_t i = 0; i < kLanes; ++i) {
+      if ((wanted >> i & 1) == 0 || slots[i] != slot) continue;
+      ++counts[slot];
+      wanted &= ~(uint64_t{1} << i);
+    }
+  }
+  return wanted;
+}
+
 void index_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint16_t* indices,
                          uint8_t* widths) {
   uint8_t slots[kLanes];
@@ -202,20 +215,39 @@ void index_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint16_t
   fill_widths(indices, widths);
 }
 
+WrittenBlock write_sub_blocks_plainly(const uint32_t* pixels, const uint16_t* indices, const uint8_t* widths,
+                                      uint32_t mark_bits, uint8_t* out) {
+  WrittenBlock written = {};
+  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+    uint64_t& marks = written.marks[sub / 8];
+    marks = marks << mark_bits | (widths[sub] & ((1u << mark_bits) - 1));
+  }
+  BitWriter bits({out, kMaxRawBlockBits / 8});
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    const uint8_t width = widths[i / kSubBlockPixels];
+    width == kRawWidth ? bits.put(pixels[i], 32) : bits.put(indices[i], width);
+  }
+  written.bits = static_cast<uint32_t>(bits.bit_count());
+  bits.flush();
+  return written;
+}
+
 const Kernels& scalar_kernels() {
   static const Kernels kScalar = {
       .name = "scalar",
-      .finds_slots = false,
+      .byte_permutes = false,
       .load_traversal = load_traversal,
       .is_solid = is_solid,
       .find = find,
       .find_slots = find_slots_plainly,
+      .count_slots = count_slots_plainly,
       .index_slots = index_slots_plainly,
       .places_of = places_of,
       .split = split,
       .find_few = find_few,
       .width_sum = width_sum,
       .pack = pack,
+      .write_sub_blocks = write_sub_blocks_plainly,
       .count_up_to = count_up_to,
       .members = members,
       .find_smallest = find_smallest,

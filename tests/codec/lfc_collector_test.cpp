@@ -109,6 +109,22 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
       widths[s] = s % 4 == 1 ? kRawWidth : width_of(*std::max_element(indices + 4 * s, indices + 4 * s + 4));
     kernels().pack(indices, widths, words);
     const uint32_t raw_bits = 16 + round % 2 * 16, limit = dice.below(11);
+    uint8_t written[256], other_written[256];
+    uint8_t few_widths[16];  // and indices that fit
+    uint16_t few_indices[64];
+    const uint32_t raw_share = dice.below(5);
+    for (uint32_t s = 0; s < 16; ++s) {
+      few_widths[s] = dice.below(4) < raw_share ? kRawWidth : static_cast<uint8_t>(dice.below(8));
+      for (uint32_t i = 4 * s; i < 4 * s + 4; ++i)
+        few_indices[i] = few_widths[s] == kRawWidth ? kNotInCcd : indices[i] & ((1u << few_widths[s]) - 1);
+    }
+    const uint32_t mark_bits = 3 + dice.below(5);
+    const WrittenBlock block =
+        kernels().write_sub_blocks(pixels.data(), few_indices, few_widths, mark_bits, written);
+    uint8_t slots[64];
+    for (uint8_t& slot : slots) slot = static_cast<uint8_t>(dice.below(1 + dice.below(64)));
+    std::array<uint32_t, 64> counted{};
+    const uint64_t left = kernels().count_slots(slots, mask, counted.data());
     const uint32_t width_sum = kernels().width_sum(widths, raw_bits);
     const uint32_t narrow = kernels().count_up_to(widths, limit);
     for (const std::string_view each : simd_targets()) {
@@ -129,6 +145,14 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
       ASSERT_EQ(other_smallest.smallest, smallest.smallest);
       ASSERT_EQ(other_smallest.second, smallest.second);
       kernels().pack(indices, widths, other_words);
+      const WrittenBlock other =
+          kernels().write_sub_blocks(pixels.data(), few_indices, few_widths, mark_bits, other_written);
+      ASSERT_EQ(other.bits, block.bits);
+      ASSERT_TRUE(std::ranges::equal(other.marks, block.marks));
+      ASSERT_TRUE(std::equal(written, written + (block.bits + 7) / 8, other_written));
+      std::array<uint32_t, 64> other_counted{};
+      ASSERT_EQ(kernels().count_slots(slots, mask, other_counted.data()), left);
+      ASSERT_EQ(other_counted, counted);
       ASSERT_EQ(kernels().width_sum(widths, raw_bits), width_sum);
       ASSERT_EQ(kernels().count_up_to(widths, limit), narrow);
       for (uint32_t sub = 0; sub < 16; ++sub)

@@ -44,6 +44,18 @@ class BitWriter {
     store(accumulator_ | value >> pending_);
     accumulator_ = pending_ == 0 ? 0 : value << (64 - pending_);
   }
+  /// The next `bytes` bytes, for who writes bits there himself and tells by wrote(); null if bits are held back
+  /// or so many bytes do not fit.
+  uint8_t* at_byte(size_t bytes) {
+    const bool fit = position_ <= buffer_.size() && bytes <= buffer_.size() - position_;
+    return pending_ == 0 && fit ? buffer_.data() + position_ : nullptr;
+  }
+  /// `bits` bits from the byte at_byte() gave are there; the rest of their last byte is 0.
+  void wrote(uint64_t bits) {
+    position_ += bits / 8;
+    pending_ = static_cast<uint32_t>(bits % 8);
+    accumulator_ = pending_ == 0 ? 0 : uint64_t{buffer_[position_]} << 56;
+  }
   /// Appends `count` one-bits followed by a zero-bit.
   void put_unary(uint32_t count) {
     for (; count >= 32; count -= 32) put(0xFFFFFFFFu, 32);
