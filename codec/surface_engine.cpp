@@ -80,6 +80,7 @@ struct SurfaceEngine::State {
   BlockKeys keys;          ///< of the block being visited, unless of one colour
   bool wants_keys = false;  ///< a collector makes use of them
   bool wants_few = false;   ///< likewise, or the meter does
+  bool meter_looks = false;  ///< the meter has to see the pixels, and no collector tells it
   uint32_t few_score = 0;                 ///< how well it went lately to look for few colours
   uint32_t until_few = 0;                 ///< blocks not to look at, when it went badly
   std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere
@@ -140,7 +141,6 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
     lanes.push_back(std::move(lane));
   }
   wants_keys = kernels().byte_permutes && !collectors.empty();
-  wants_few = wants_keys ? options.frame_metrics : !collectors.empty();
 }
 
 void SurfaceEngine::State::begin_frame() {
@@ -155,7 +155,12 @@ void SurfaceEngine::State::begin_frame() {
   if (needs_whole_frame) take_rows(0, now.blocks_y());
   for (Collector& collector : collectors) collector.begin_frame(ordinal);
   last.solid = false;
-  if (options.frame_metrics) meter.begin_frame(size_t{now.width()} * now.height());
+  meter_looks = false;
+  if (options.frame_metrics) {
+    meter.begin_frame(size_t{now.width()} * now.height());
+    meter_looks = meter.counting() && !collectors.front().listen(&meter);
+  }
+  wants_few = meter_looks || (!wants_keys && !collectors.empty());
   out->schemes.assign(lanes.size(), SchemeStatistics{});
   if (block_bits != nullptr) {
     block_bits->blocks_x = now.blocks_x();
@@ -193,7 +198,7 @@ uint32_t SurfaceEngine::State::pixels_inside(uint32_t bx, uint32_t by) const {
 void SurfaceEngine::State::settle_run() {
   if (run.count == 0) return;
   for (Collector& collector : collectors) collector.see_run(run.color, run.count);
-  if (options.frame_metrics) meter.see_run(run.color, run.count);
+  if (meter_looks) meter.see_run(run.color, run.count);
   run.count = 0;
 }
 
@@ -218,7 +223,7 @@ void SurfaceEngine::State::collect(const BlockContext& block) {
     pixels = inside;
   }
   const FewColors* whole_few = is_few && count == kBlockPixels ? &few : nullptr;
-  if (options.frame_metrics) whole_few != nullptr ? meter.see_block(few) : meter.see_all(pixels, count);
+  if (meter_looks) whole_few != nullptr ? meter.see_block(few) : meter.see_all(pixels, count);
   const BlockKeys* whole_keys = wants_keys && count == kBlockPixels ? &keys : nullptr;
   for (Collector& collector : collectors) collector.see_all(pixels, count, whole_few, whole_keys);
 }

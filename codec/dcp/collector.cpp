@@ -18,6 +18,12 @@ void Collector::begin_frame(uint64_t ordinal) {
   if (fast_) fast_->reset();
 }
 
+bool Collector::listen(ColorListener* listener) {
+  if (!collecting_ || !fast_) return false;
+  fast_->listen(listener);
+  return true;
+}
+
 void Collector::see_run(uint32_t color, uint32_t count) {
   if (!collecting_) return;
   fast_ ? fast_->see_run(color, count) : fvc_.see_run(color, count);
@@ -36,7 +42,9 @@ void Collector::see_all(const uint32_t* pixels, uint32_t count, const FewColors*
 }
 
 void Collector::end_frame() {
-  if (collecting_ && fast_) fast_->store_to(fvc_);
+  if (!collecting_ || !fast_) return;
+  fast_->tell_held();
+  fast_->store_to(fvc_);
 }
 
 void Collector::build_ccd() {

@@ -5,10 +5,12 @@
 //                            raw         4 × pixel bits
 //   tables    N slots of an rCCD entry (pixel bits + 1), then N code lengths of 6 bits (0 in invalid slots)
 #include <algorithm>
+#include <array>
 
 #include "dcp/dcp_family.h"
 #include "huffman.h"
 #include "scheme_factory.h"
+#include "simd/kernels.h"
 
 namespace tilepress {
 namespace {
@@ -25,6 +27,7 @@ class HuffDcpEncoder final : public DcpFamilyEncoder {
     if (!active()) return;
     huffman_lengths(ccd_->counts, lengths_);
     code_.assign(lengths_);
+    if (lengths_.size() <= first_lengths_.size()) std::copy(lengths_.begin(), lengths_.end(), first_lengths_.begin());
   }
   uint32_t csb_bits() const override { return off_ ? 0 : kSubBlocks; }
   uint64_t palette_bits() const override {
@@ -39,6 +42,8 @@ class HuffDcpEncoder final : public DcpFamilyEncoder {
   uint32_t measure(const BlockContext& block) const override {
     if (!active()) return raw_block_bits();
     if (block.uniform) return kSubBlocks * sub_block_bits(block, 0);
+    if (kernels().byte_permutes && lengths_.size() <= first_lengths_.size())
+      return kernels().code_sum(block.ccd_indices, first_lengths_.data(), raw_sub_block_bits());
     uint32_t bits = 0;
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub) bits += sub_block_bits(block, sub);
     return bits;
@@ -69,6 +74,7 @@ class HuffDcpEncoder final : public DcpFamilyEncoder {
     return std::min(bits, raw_sub_block_bits());
   }
   std::vector<uint8_t> lengths_;
+  std::array<uint8_t, 64> first_lengths_{};  ///< the same, if they are no more
   CanonicalCode code_;
 };
 

@@ -19,7 +19,8 @@ LfcCollector::LfcCollector(uint32_t entries)
     : entries_(entries),
       by_slots_(kernels().byte_permutes && entries <= SlotTable::kSlots),
       slot_places_(entries, kNoSlot),
-      slot_colors_(entries) {
+      slot_colors_(entries),
+      slot_told_(entries) {
   table_.multiplier = ProbeTable::multiplier_of(0);
   table_.reset(by_slots_ ? 2 : entries * kBucketsPerEntry, false);
   copy_stride_ = by_slots_ ? SlotTable::kAbsent + 1 : table_.size() + 1 + kMaxCrowded;
@@ -34,6 +35,7 @@ void LfcCollector::reset() {
   std::fill(slot_places_.begin(), slot_places_.end(), kNoSlot);
   used_ = crowded_ = 0;
   samples_ = 0;
+  listener_ = nullptr;
   floor_ = 0;
 }
 
@@ -81,6 +83,7 @@ void LfcCollector::forget_counts(uint32_t slot) {
 
 void LfcCollector::remove_member(uint32_t slot) {
   const uint32_t place = slot_places_[slot];
+  tell(slot_colors_[slot], count_at(place) - slot_told_[slot]);
   slot_places_[slot] = kNoSlot;
   if (by_slots_) {
     forget_counts(slot);
@@ -125,6 +128,8 @@ void LfcCollector::rehash() {
 }
 
 void LfcCollector::fill_slot(uint32_t color, uint32_t count) {
+  tell(color, count);
+  slot_told_[used_] = count;
   add_member(used_++, color, count);
   if (!full()) return;
   tail_slot_ = 0;
@@ -159,6 +164,7 @@ bool LfcCollector::settle_tail() {
   if (tail_count_ < found.smallest || (tail_count_ == found.smallest && tail_slot_ < found.at)) return false;
   const uint32_t next_color = slot_colors_[found.at];
   remove_member(found.at);
+  slot_told_[tail_slot_] = tail_count_;
   add_member(tail_slot_, tail_color_, tail_count_);
   floor_ = std::min(found.second, tail_count_);
   tail_slot_ = found.at;
@@ -175,6 +181,7 @@ void LfcCollector::see_run(uint32_t color, uint32_t count) {
     return;
   }
   if (!full()) return fill_slot(color, count);
+  tell(color, count);
   tail_count_ = color == tail_color_ ? tail_count_ + count : count;
   tail_color_ = color;
   settle_tail();
@@ -256,7 +263,7 @@ template <class Place, class Find>
 void LfcCollector::take_block(const uint32_t* pixels, const Find& find) {
   Place places[kLanes];
   FoundSlots found = find(places);
-  if (found.known == ~uint64_t{0} || (full() && take_few_misses(pixels, ~found.known)))
+  if (found.known == ~uint64_t{0} || (full() && listener_ == nullptr && take_few_misses(pixels, ~found.known)))
     return count_rest(places, found, 0);
   for (uint32_t from = 0; from < kLanes; found = find(places)) {  // pixels before are counted
     const auto count_to = [&](uint32_t lane) {
@@ -276,6 +283,7 @@ void LfcCollector::take_block(const uint32_t* pixels, const Find& find) {
       for (uint32_t taken = 0; misses != 0 && !changed;) {
         const uint32_t settles = first_to_settle(alike), left = bit_count(misses);
         const uint32_t count = std::min(settles + 1, left);
+        if (listener_ != nullptr) listener_->see_pixels(&colors[taken], count, alike);
         const auto run = static_cast<uint32_t>(std::countl_one(alike << (kLanes - count)));
         tail_count_ = run == count ? tail_count_ + count : run + 1;
         tail_color_ = colors[taken + count - 1];
@@ -306,6 +314,16 @@ void LfcCollector::see_block(const uint32_t* pixels, const BlockKeys* keys) {
   take_block<uint32_t>(pixels, [&](uint32_t* places) -> FoundSlots {
     return {kernels().members(pixels, table_, crowded_colors_.data(), crowded_, places), ~uint64_t{0}};
   });
+}
+
+void LfcCollector::tell_held() {
+  if (listener_ == nullptr) return;
+  for (uint32_t slot = 0; slot < used_; ++slot) {
+    if (slot_places_[slot] == kNoSlot) continue;
+    const uint32_t count = count_at(slot_places_[slot]);
+    tell(slot_colors_[slot], count - slot_told_[slot]);
+    slot_told_[slot] = count;
+  }
 }
 
 void LfcCollector::store_to(Fvc& fvc) const {

@@ -22,6 +22,17 @@ namespace tilepress {
 
 class Fvc;
 
+/// Is told of every pixel of a frame by its end, each once, in any order.
+class ColorListener {
+ public:
+  virtual ~ColorListener() = default;
+  /// `count` pixels of one colour.
+  virtual void see_run(uint32_t color, uint32_t count) = 0;
+  /// `count` pixels, at most 64. Bit i of `alike`: pixel i is of the colour of the one before it; of no meaning
+  /// for i = 0.
+  virtual void see_pixels(const uint32_t* pixels, uint32_t count, uint64_t alike) = 0;
+};
+
 class LfcCollector {
  public:
   static constexpr uint32_t kMaxEntries = 128;  ///< beyond, collisions in the table would become common
@@ -29,6 +40,11 @@ class LfcCollector {
   /// entries: a power of two, 2..kMaxEntries.
   explicit LfcCollector(uint32_t entries);
   void reset();
+  /// Whom to tell, until the next reset(). What the FVC holds is told at once when it leaves, or by
+  /// tell_held(): a collector that counts colours anyway saves the listener most of the work.
+  void listen(ColorListener* listener) { listener_ = listener; }
+  /// After the last pixel of a frame.
+  void tell_held();
   /// A whole block, 64 pixels in traversal order, `keys` null or of the same.
   void see_block(const uint32_t* pixels, const BlockKeys* keys);
   /// The same for a block of few colours. False, and nothing happened, if not all of them are held.
@@ -56,6 +72,9 @@ class LfcCollector {
   void forget_counts(uint32_t slot);
   bool take_few_misses(const uint32_t* pixels, uint64_t misses);
   uint32_t first_to_settle(uint64_t alike) const;
+  void tell(uint32_t color, uint32_t count) {
+    if (listener_ != nullptr && count != 0) listener_->see_run(color, count);
+  }
   template <class Place>
   void count_hits(const Place* places, uint32_t from, uint32_t to);
   template <class Place>
@@ -79,6 +98,8 @@ class LfcCollector {
   std::vector<uint32_t> counts_;
   uint32_t copy_stride_;
   std::vector<uint32_t> slot_places_, slot_colors_;
+  ColorListener* listener_ = nullptr;
+  std::vector<uint32_t> slot_told_;  ///< pixels of the slot's count that the listener knows of
 };
 
 }  // namespace tilepress

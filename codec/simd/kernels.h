@@ -91,6 +91,11 @@ struct Kernels {
   WrittenBlock (*write_sub_blocks)(const uint32_t* pixels, const uint16_t* indices, const uint8_t* widths,
                                    uint32_t mark_bits, uint8_t* out);
 
+  /// Bits of a block in codes of `lengths`, up to 127 each, by index: of each sub-block the sum over its
+  /// indices, but `raw_bits` where that is more or one is kNotInCcd. raw_bits is 64 or 128, indices are below
+  /// 64.
+  uint32_t (*code_sum)(const uint16_t* indices, const uint8_t* lengths, uint32_t raw_bits);
+
   /// Number of sub-blocks of a width up to `limit` (below kRawWidth).
   uint32_t (*count_up_to)(const uint8_t* widths, uint32_t limit);
 

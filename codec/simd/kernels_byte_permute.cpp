@@ -164,11 +164,27 @@ TILEPRESS_VBMI void index_slots(const BlockKeys& keys, const SlotTable& table, u
   _mm_storeu_si128(reinterpret_cast<__m128i*>(widths), _mm512_cvtepi32_epi8(width));
 }
 
-/// The four indices of each sub-block, the first on top, of `widths` bits each, at most 7.
-TILEPRESS_VBMI_INLINE __m512i packed_indices(const uint16_t* indices, __m512i widths) {
+/// 64 indices of up to 8 bits, or 0xFF.
+TILEPRESS_VBMI_INLINE __m512i index_bytes(const uint16_t* indices) {
   const __m256i low = _mm512_cvtepi16_epi8(_mm512_loadu_si512(indices));
   const __m256i high = _mm512_cvtepi16_epi8(_mm512_loadu_si512(indices + 32));
-  const __m512i bytes = _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+  return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+}
+
+TILEPRESS_VBMI uint32_t code_sum(const uint16_t* indices, const uint8_t* lengths, uint32_t raw_bits) {
+  const __m512i index = index_bytes(indices);
+  const __m512i bits = _mm512_mask_mov_epi8(_mm512_permutexvar_epi8(index, _mm512_loadu_si512(lengths)),
+                                            _mm512_movepi8_mask(index),
+                                            _mm512_set1_epi8(static_cast<char>(raw_bits)));
+  const __m512i pairs = _mm512_maddubs_epi16(bits, _mm512_set1_epi8(1));
+  const __m512i sums = _mm512_madd_epi16(pairs, _mm512_set1_epi16(1));
+  return static_cast<uint32_t>(
+      _mm512_reduce_add_epi32(_mm512_min_epu32(sums, _mm512_set1_epi32(static_cast<int>(raw_bits)))));
+}
+
+/// The four indices of each sub-block, the first on top, of `widths` bits each, at most 7.
+TILEPRESS_VBMI_INLINE __m512i packed_indices(const uint16_t* indices, __m512i widths) {
+  const __m512i bytes = index_bytes(indices);
   const __m512i one = _mm512_set1_epi32(1);
   // Pairs of indices, the first · 2^width + the second, and then pairs of pairs.
   const __m512i by_width = _mm512_sllv_epi32(_mm512_set1_epi32(0x00010001), widths);
@@ -305,6 +321,7 @@ const Kernels* byte_permute_kernels(const Kernels& base) {
     set.count_slots = count_slots;
     set.index_slots = index_slots;
     set.write_sub_blocks = write_sub_blocks;
+    set.code_sum = code_sum;
     return set;
   }();
   return &kSet;

@@ -380,6 +380,7 @@ const Kernels& Set(const char* name) {
       .width_sum = WidthSum,
       .pack = Pack,
       .write_sub_blocks = write_sub_blocks_plainly,
+      .code_sum = code_sum_plainly,
       .count_up_to = CountUpTo,
       .members = Members,
       .find_smallest = FindSmallest,

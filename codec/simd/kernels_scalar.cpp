@@ -215,6 +215,19 @@ void index_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint16_t
   fill_widths(indices, widths);
 }
 
+uint32_t code_sum_plainly(const uint16_t* indices, const uint8_t* lengths, uint32_t raw_bits) {
+  uint32_t sum = 0;
+  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+    uint32_t bits = 0;
+    for (uint32_t i = 0; i < kSubBlockPixels; ++i) {
+      const uint16_t index = indices[sub * kSubBlockPixels + i];
+      bits += index == kNotInCcd ? raw_bits : lengths[index];
+    }
+    sum += std::min(bits, raw_bits);
+  }
+  return sum;
+}
+
 WrittenBlock write_sub_blocks_plainly(const uint32_t* pixels, const uint16_t* indices, const uint8_t* widths,
                                       uint32_t mark_bits, uint8_t* out) {
   WrittenBlock written = {};
@@ -248,6 +261,7 @@ const Kernels& scalar_kernels() {
       .width_sum = width_sum,
       .pack = pack,
       .write_sub_blocks = write_sub_blocks_plainly,
+      .code_sum = code_sum_plainly,
       .count_up_to = count_up_to,
       .members = members,
       .find_smallest = find_smallest,

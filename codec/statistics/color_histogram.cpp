@@ -25,7 +25,8 @@ bool ColorHistogram::add(uint32_t color, uint32_t count) {
       table_[at].count += count;
       return true;
     }
-    if ((used_ + 1) * 8 <= table_.size() * 7) {
+    const bool largest = table_.size() >= largest_size_;  // no smaller one gets as full
+    if ((used_ + 1) * 8 <= table_.size() * (largest ? 7 : 4)) {
       table_[at] = {color, count};
       ++used_;
       return true;

@@ -2,6 +2,7 @@
 #include "statistics/frame_metrics.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "dcp/fvc.h"
@@ -56,6 +57,16 @@ void FrameMeter::see_all(const uint32_t* pixels, uint32_t count) {
     while (++i < count && pixels[i] == pixels[first]) {
     }
     see_run(pixels[first], i - first);
+  }
+}
+
+void FrameMeter::see_pixels(const uint32_t* pixels, uint32_t count, uint64_t alike) {
+  uint64_t begins = (~alike & ~uint64_t{0} >> (kLanes - count)) | 1;
+  while (begins != 0 && counting_) {  // colours that come back soon are not among these
+    const auto begin = static_cast<uint32_t>(std::countr_zero(begins));
+    begins &= begins - 1;
+    const uint32_t end = begins != 0 ? static_cast<uint32_t>(std::countr_zero(begins)) : count;
+    counting_ = now_.add(pixels[begin], end - begin);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "dcp/lfc_collector.h"
 #include "simd/kernels.h"
 #include "statistics/color_distribution.h"
 #include "statistics/color_histogram.h"
@@ -17,14 +18,16 @@ class Fvc;
 
 /// Frames of few colours are counted in hash tables that take an eighth of a raw frame together; frames of
 /// many are distributed. Either way the colours are kept for the next frame.
-class FrameMeter {
+class FrameMeter final : public ColorListener {
  public:
   /// Before the first pixel of a frame of `pixels`, all of which will be seen, in any order, each once.
   void begin_frame(size_t pixels);
-  /// `count` pixels of one colour.
-  void see_run(uint32_t color, uint32_t count) {
+  /// False: it makes no difference whether the pixels of this frame are seen.
+  bool counting() const { return counting_; }
+  void see_run(uint32_t color, uint32_t count) override {
     if (counting_ && !take(color, count)) counting_ = false;
   }
+  void see_pixels(const uint32_t* pixels, uint32_t count, uint64_t alike) override;
   void see_all(const uint32_t* pixels, uint32_t count);
   void see_block(const FewColors& few);
   /// Measures `frame`, which has been seen. `changed`: its pixels that differ from those of the frame

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <map>
 
 #include "dcp/ccd.h"
 #include "dcp/fvc.h"
@@ -41,7 +42,48 @@ std::string differences(const Fvc& plain, const Fvc& fast) {
   return text;
 }
 
+struct Counter final : ColorListener {
+  std::map<uint32_t, uint64_t> counts;
+  void see_run(uint32_t color, uint32_t count) override { counts[color] += count; }
+  void see_pixels(const uint32_t* pixels, uint32_t count, uint64_t alike) override {
+    for (uint32_t i = 0; i < count; ++i) {
+      ++counts[pixels[i]];
+      EXPECT_TRUE(i == 0 || (alike >> i & 1) == 0 || pixels[i] == pixels[i - 1]);
+    }
+  }
+};
+
 }  // namespace
+
+TEST(LfcCollector, TellsOfEveryPixelOnce) {
+  const std::string_view target = simd_target();
+  for (const std::string_view each : simd_targets()) {
+    force_simd_target(each);
+    for (const uint32_t entries : {2u, 64u, 128u}) {
+      patterns::Dice dice(entries);
+      LfcCollector collector(entries);
+      for (uint32_t frame = 0; frame < 20; ++frame) {
+        Counter told, seen;
+        collector.reset();
+        collector.listen(&told);
+        for (uint32_t block = 0; block < 200; ++block) {
+          constexpr uint32_t kColors[] = {1, 2, 5, 20, 70, 130, 300, 60000};
+          const auto pixels = draw_block(kColors[dice.below(8)], 1 + dice.below(12), dice);
+          for (const uint32_t pixel : pixels) ++seen.counts[pixel];
+          BlockKeys keys;
+          keys.fill(pixels.data());
+          if (std::count(pixels.begin(), pixels.end(), pixels[0]) == kBlockPixels)
+            collector.see_run(pixels[0], kBlockPixels);
+          else
+            collector.see_block(pixels.data(), &keys);
+        }
+        collector.tell_held();
+        ASSERT_EQ(told.counts, seen.counts) << each << ", " << entries << " entries, frame " << frame;
+      }
+    }
+  }
+  force_simd_target(target);
+}
 
 TEST(LfcCollector, HoldsWhatThePlainFvcHolds) {
   const std::string_view target = simd_target();
@@ -125,6 +167,12 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
     for (uint8_t& slot : slots) slot = static_cast<uint8_t>(dice.below(1 + dice.below(64)));
     std::array<uint32_t, 64> counted{};
     const uint64_t left = kernels().count_slots(slots, mask, counted.data());
+    uint8_t lengths[64];
+    uint16_t coded[64];
+    for (uint8_t& length : lengths) length = static_cast<uint8_t>(1 + dice.below(63));
+    for (uint16_t& index : coded)
+      index = dice.below(8) < raw_share ? kNotInCcd : static_cast<uint16_t>(dice.below(64));
+    const uint32_t code_sum = kernels().code_sum(coded, lengths, 64u << round % 2);
     const uint32_t width_sum = kernels().width_sum(widths, raw_bits);
     const uint32_t narrow = kernels().count_up_to(widths, limit);
     for (const std::string_view each : simd_targets()) {
@@ -153,6 +201,7 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
       std::array<uint32_t, 64> other_counted{};
       ASSERT_EQ(kernels().count_slots(slots, mask, other_counted.data()), left);
       ASSERT_EQ(other_counted, counted);
+      ASSERT_EQ(kernels().code_sum(coded, lengths, 64u << round % 2), code_sum);
       ASSERT_EQ(kernels().width_sum(widths, raw_bits), width_sum);
       ASSERT_EQ(kernels().count_up_to(widths, limit), narrow);
       for (uint32_t sub = 0; sub < 16; ++sub)
