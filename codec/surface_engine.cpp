@@ -77,10 +77,10 @@ struct SurfaceEngine::State {
   } run;
   FewColors few;  ///< of the block being visited
   bool is_few = false;
-  BlockKeys keys;          ///< of the block being visited, unless of one colour
-  bool wants_keys = false;  ///< a collector makes use of them
-  bool wants_few = false;   ///< likewise, or the meter does
-  bool meter_looks = false;  ///< the meter has to see the pixels, and no collector tells it
+  BlockKeys keys;                         ///< of the block being visited, unless of one colour
+  bool wants_keys = false;                ///< a collector makes use of them
+  bool wants_few = false;                 ///< likewise, or the meter does
+  bool meter_looks = false;               ///< the meter has to see the pixels, and no collector tells it
   uint32_t few_score = 0;                 ///< how well it went lately to look for few colours
   uint32_t until_few = 0;                 ///< blocks not to look at, when it went badly
   std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere

@@ -29,8 +29,7 @@ void Collector::see_run(uint32_t color, uint32_t count) {
   fast_ ? fast_->see_run(color, count) : fvc_.see_run(color, count);
 }
 
-void Collector::see_all(const uint32_t* pixels, uint32_t count, const FewColors* few,
-                        const BlockKeys* keys) {
+void Collector::see_all(const uint32_t* pixels, uint32_t count, const FewColors* few, const BlockKeys* keys) {
   if (!collecting_) return;
   if (!fast_) {
     fvc_.see_all(pixels, count);

@@ -22,8 +22,8 @@ class Collector {
   Collector(const FvcConfig& config, const FormatTraits& format);
 
   void begin_frame(uint64_t ordinal);
-  /// After begin_frame(): `listener` is told of the pixels this sees until end_frame(). False, and it is not, if
-  /// this does not collect in the frame, or not in a way that serves others.
+  /// After begin_frame(): `listener` is told of the pixels this sees until end_frame(). False, and it is not,
+  /// if this does not collect in the frame, or not in a way that serves others.
   bool listen(ColorListener* listener);
   /// `count` pixels of one colour in a row.
   void see_run(uint32_t color, uint32_t count);

@@ -50,9 +50,7 @@ class DcpEncoder : public DcpFamilyEncoder {
   virtual uint32_t choose_width() const { return index_bits_; }
 
  private:
-  bool fits(const BlockContext& block, uint32_t sub) const {
-    return block.ccd_widths[sub] <= width_;
-  }
+  bool fits(const BlockContext& block, uint32_t sub) const { return block.ccd_widths[sub] <= width_; }
   uint32_t width_ = 0;
 };
 

@@ -27,7 +27,8 @@ class HuffDcpEncoder final : public DcpFamilyEncoder {
     if (!active()) return;
     huffman_lengths(ccd_->counts, lengths_);
     code_.assign(lengths_);
-    if (lengths_.size() <= first_lengths_.size()) std::copy(lengths_.begin(), lengths_.end(), first_lengths_.begin());
+    if (lengths_.size() <= first_lengths_.size())
+      std::copy(lengths_.begin(), lengths_.end(), first_lengths_.begin());
   }
   uint32_t csb_bits() const override { return off_ ? 0 : kSubBlocks; }
   uint64_t palette_bits() const override {

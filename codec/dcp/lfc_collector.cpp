@@ -201,9 +201,9 @@ bool LfcCollector::take_few_misses(const uint32_t* pixels, uint64_t misses) {
   return true;
 }
 
-/// Of a number of misses, bit i of `alike` set where number i is of the colour of the one before it, or number 0
-/// of that of the tail: the number of the first at which the tail is hit and has as many as the floor; kLanes if
-/// there is none.
+/// Of a number of misses, bit i of `alike` set where number i is of the colour of the one before it, or
+/// number 0 of that of the tail: the number of the first at which the tail is hit and has as many as the
+/// floor; kLanes if there is none.
 uint32_t LfcCollector::first_to_settle(uint64_t alike) const {
   const auto on_tail = static_cast<uint32_t>(std::countr_one(alike));
   if (on_tail != 0 && tail_count_ + on_tail >= floor_)
@@ -263,7 +263,8 @@ template <class Place, class Find>
 void LfcCollector::take_block(const uint32_t* pixels, const Find& find) {
   Place places[kLanes];
   FoundSlots found = find(places);
-  if (found.known == ~uint64_t{0} || (full() && listener_ == nullptr && take_few_misses(pixels, ~found.known)))
+  if (found.known == ~uint64_t{0} ||
+      (full() && listener_ == nullptr && take_few_misses(pixels, ~found.known)))
     return count_rest(places, found, 0);
   for (uint32_t from = 0; from < kLanes; found = find(places)) {  // pixels before are counted
     const auto count_to = [&](uint32_t lane) {
@@ -304,8 +305,8 @@ void LfcCollector::take_block(const uint32_t* pixels, const Find& find) {
 void LfcCollector::see_block(const uint32_t* pixels, const BlockKeys* keys) {
   samples_ += kLanes;
   if (by_slots_ && keys != nullptr)
-    return take_block<uint8_t>(
-        pixels, [&](uint8_t* slots) { return kernels().find_slots(*keys, slots_, slots); });
+    return take_block<uint8_t>(pixels,
+                               [&](uint8_t* slots) { return kernels().find_slots(*keys, slots_, slots); });
   if (by_slots_) {
     samples_ -= kLanes;
     for (uint32_t i = 0; i < kLanes; ++i) see_run(pixels[i], 1);

@@ -28,8 +28,8 @@ class ColorListener {
   virtual ~ColorListener() = default;
   /// `count` pixels of one colour.
   virtual void see_run(uint32_t color, uint32_t count) = 0;
-  /// `count` pixels, at most 64. Bit i of `alike`: pixel i is of the colour of the one before it; of no meaning
-  /// for i = 0.
+  /// `count` pixels, at most 64. Bit i of `alike`: pixel i is of the colour of the one before it; of no
+  /// meaning for i = 0.
   virtual void see_pixels(const uint32_t* pixels, uint32_t count, uint64_t alike) = 0;
 };
 
@@ -84,13 +84,13 @@ class LfcCollector {
 
   const uint32_t entries_;
   const bool by_slots_;  ///< slots_ holds the members, and a member's place is its slot; else table_ does
-  uint32_t used_ = 0;  ///< slots filled
+  uint32_t used_ = 0;    ///< slots filled
   uint64_t samples_ = 0;
   uint32_t tail_slot_ = 0, tail_color_ = 0, tail_count_ = 0;  ///< valid once full
   uint32_t floor_ = 0;                                        ///< no other slot has a smaller count
-  SlotTable slots_;       ///< colours of all slots but the tail
-  ProbeTable table_;      ///< the same but the crowded ones
-  uint32_t crowded_ = 0;  ///< colours whose bucket was taken
+  SlotTable slots_;                                           ///< colours of all slots but the tail
+  ProbeTable table_;                                          ///< the same but the crowded ones
+  uint32_t crowded_ = 0;                                      ///< colours whose bucket was taken
   std::array<uint32_t, kMaxCrowded> crowded_colors_{}, crowded_slots_{};
   uint32_t multiplier_index_ = 0;
   /// Counts by place (bucket, outside, crowded), in four copies that are summed when needed: adding to one

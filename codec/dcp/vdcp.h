@@ -9,8 +9,8 @@
 
 namespace tilepress {
 
-// The index width of a sub-block is the bit width of its largest CCD index (0 → 0 bits, 1 → 1, 2–3 → 2 …). The
-// paper prints ceil(log2(max index)); its own example needs the bit width.
+// The index width of a sub-block is the bit width of its largest CCD index (0 → 0 bits, 1 → 1, 2–3 → 2 …).
+// The paper prints ceil(log2(max index)); its own example needs the bit width.
 
 /// Payload bits of a block.
 inline uint32_t vdcp_measure(const BlockContext& block, uint32_t pixel_bits) {

@@ -10,8 +10,7 @@ namespace tilepress {
 namespace {
 
 /// ORs `bits` bits of `from` into `plane` at bit `position`.
-void merge_bits(std::span<const uint8_t> from, uint32_t bits, std::vector<uint8_t>& plane,
-                uint64_t position) {
+void merge_bits(std::span<const uint8_t> from, uint32_t bits, std::span<uint8_t> plane, uint64_t position) {
   if (bits <= kMaxBitsPerCall && position / 8 + 8 <= plane.size()) {  // at once, if it ends in the word
     uint64_t value, word;
     std::memcpy(&value, from.data(), 8);
@@ -42,11 +41,31 @@ void merge_bits(std::span<const uint8_t> from, uint32_t bits, std::vector<uint8_
   }
 }
 
+template <typename Word>
+void copy_ends(const uint8_t* from, uint32_t bytes, uint8_t* to) {
+  Word first, last;
+  std::memcpy(&first, from, sizeof first);
+  std::memcpy(&last, from + bytes - sizeof last, sizeof last);
+  std::memcpy(to, &first, sizeof first);
+  std::memcpy(to + bytes - sizeof last, &last, sizeof last);
+}
+
+/// A few bytes, without a call.
+void copy_bytes(const uint8_t* from, uint32_t bytes, uint8_t* to) {
+  if (bytes > 16)
+    std::memcpy(to, from, bytes);
+  else if (bytes >= 8)
+    copy_ends<uint64_t>(from, bytes, to);
+  else if (bytes >= 4)
+    copy_ends<uint32_t>(from, bytes, to);
+  else
+    for (uint32_t i = 0; i < bytes; ++i) to[i] = from[i];
+}
+
 }  // namespace
 
 void SurfaceStore::begin_frame(const SchemeSpec& spec, const ModelOptions& options, const FrameContext& frame,
                                const BlockEncoder& encoder, CompressedSurface& out) {
-  surface_ = &out;
   out.scheme = spec;
   out.format = frame.plane.format();
   out.width = frame.plane.width();
@@ -64,7 +83,11 @@ void SurfaceStore::begin_frame(const SchemeSpec& spec, const ModelOptions& optio
     out.payload.assign(out.blocks() * out.slot_bytes(), 0);
     out.block_bits.assign(out.blocks(), 0);
   }
+  payload_ = out.payload.data();
+  block_bits_ = out.block_bits.data();
+  csb_bits_ = out.csb_bits;
   out.csb.assign((out.csb_plane_bits() + 7) / 8, 0);
+  csb_ = out.csb;
   out.tables.assign((out.table_bits + 7) / 8, 0);
   BitWriter tables(out.tables);
   encoder.write_tables(tables);
@@ -73,35 +96,41 @@ void SurfaceStore::begin_frame(const SchemeSpec& spec, const ModelOptions& optio
 }
 
 uint32_t SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& block) {
-  CompressedSurface& out = *surface_;
   last_ = uint64_t{block.by} * blocks_x_ + block.bx;
-  const auto slot = std::span(out.payload).subspan(last_ * slot_bytes_, slot_bytes_);
-  if (last_ + 1 < blocks_) __builtin_prefetch(slot.data() + slot_bytes_, 1);  // most often the next
-  BitWriter payload(slot);
+  uint8_t* slot = payload_ + last_ * slot_bytes_;
+  if (last_ + 1 < blocks_) __builtin_prefetch(slot + slot_bytes_, 1);  // most often the next
+  BitWriter payload({slot, slot_bytes_});
   BitWriter csb(last_csb_);
   encoder.encode(block, payload, csb);
   payload.flush();
   csb.flush();
-  assert(!payload.overflowed() && !csb.overflowed() && csb.bit_count() == out.csb_bits);
+  assert(!payload.overflowed() && !csb.overflowed() && csb.bit_count() == csb_bits_);
   const auto payload_bits = static_cast<uint32_t>(payload.bit_count());
-  const size_t used_bytes = (payload_bits + 7) / 8, used_before = (out.block_bits[last_] + 7u) / 8;
-  if (used_bytes < used_before) std::memset(&slot[used_bytes], 0, used_before - used_bytes);
-  out.block_bits[last_] = static_cast<uint16_t>(payload_bits);
-  merge_bits(last_csb_, out.csb_bits, out.csb, last_ * out.csb_bits);
+  const size_t used_bytes = (payload_bits + 7) / 8, used_before = (block_bits_[last_] + 7u) / 8;
+  if (used_bytes < used_before) std::memset(slot + used_bytes, 0, used_before - used_bytes);
+  block_bits_[last_] = static_cast<uint16_t>(payload_bits);
+  put_csb(last_);
   return payload_bits;
 }
 
 void SurfaceStore::put_again(uint32_t bx, uint32_t by) {
   constexpr size_t kLine = 64;  // slots are so many bytes, or a multiple
-  CompressedSurface& out = *surface_;
   const uint64_t number = uint64_t{by} * blocks_x_ + bx;
-  const uint16_t payload_bits = out.block_bits[last_];
-  const size_t most_bytes = (std::max(payload_bits, out.block_bits[number]) + 7u) / 8;
+  const uint16_t payload_bits = block_bits_[last_];
+  const size_t most_bytes = (std::max(payload_bits, block_bits_[number]) + 7u) / 8;
   // Whole lines: what lies behind a block's payload is zero in either slot.
   for (size_t at = 0; at < most_bytes; at += kLine)
-    std::memcpy(&out.payload[number * slot_bytes_ + at], &out.payload[last_ * slot_bytes_ + at], kLine);
-  out.block_bits[number] = payload_bits;
-  merge_bits(last_csb_, out.csb_bits, out.csb, number * out.csb_bits);
+    std::memcpy(payload_ + number * slot_bytes_ + at, payload_ + last_ * slot_bytes_ + at, kLine);
+  block_bits_[number] = payload_bits;
+  put_csb(number);
+}
+
+/// The CSB bits of the block put last, for block `number`.
+void SurfaceStore::put_csb(uint64_t number) {
+  if (csb_bits_ % 8 == 0)
+    copy_bytes(last_csb_.data(), csb_bits_ / 8, csb_.data() + number * (csb_bits_ / 8));
+  else
+    merge_bits(last_csb_, csb_bits_, csb_, number * csb_bits_);
 }
 
 }  // namespace tilepress

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "tilepress/compressed_surface.h"
 #include "tilepress/scheme.h"
@@ -21,7 +22,11 @@ class SurfaceStore {
 
  private:
   static constexpr uint32_t kMaxCsbBytes = 32;
-  CompressedSurface* surface_ = nullptr;
+  void put_csb(uint64_t number);
+  uint8_t* payload_ = nullptr;  ///< of the surface, as what follows
+  uint16_t* block_bits_ = nullptr;
+  std::span<uint8_t> csb_;
+  uint32_t csb_bits_ = 0;               ///< of a block
   uint64_t blocks_ = 0, blocks_x_ = 0;  ///< of the surface; slot_bytes_ too: divisions otherwise made anew
   size_t slot_bytes_ = 0;
   uint64_t last_ = 0;                             ///< number of the block put last by put()

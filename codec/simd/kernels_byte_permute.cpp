@@ -1,5 +1,5 @@
-// Byte permute kernels: the look-ups of a block where a register of 64 or 128 bytes is a table (AVX-512 VBMI).
-// Highway 1.0 has no byte permutes across a whole vector, so these are intrinsics.
+// Byte permute kernels: the look-ups of a block where a register of 64 or 128 bytes is a table (AVX-512
+// VBMI). Highway 1.0 has no byte permutes across a whole vector, so these are intrinsics.
 #include "simd/kernel_sets.h"
 
 #if defined(__x86_64__)
@@ -9,8 +9,10 @@
 #endif
 #include <immintrin.h>
 
-#define TILEPRESS_VBMI \
-  __attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,avx512cd,avx512vbmi,avx512vbmi2,avx512vpopcntdq,bmi,bmi2,popcnt")))
+#define TILEPRESS_VBMI                                                                                      \
+  __attribute__((                                                                                           \
+      target("avx512f,avx512bw,avx512dq,avx512vl,avx512cd,avx512vbmi,avx512vbmi2,avx512vpopcntdq,bmi,bmi2," \
+             "popcnt")))
 #define TILEPRESS_VBMI_INLINE TILEPRESS_VBMI __attribute__((always_inline)) inline
 
 namespace tilepress {
@@ -140,10 +142,11 @@ TILEPRESS_VBMI void index_slots(const BlockKeys& keys, const SlotTable& table, u
   const Slots found = find(keys, table);
   const __m512i none = _mm512_set1_epi16(-1);
   const auto store = [&](uint32_t half) TILEPRESS_VBMI {
-    const __m256i slots = half == 0 ? _mm512_castsi512_si256(found.slots)
-                                    : _mm512_extracti64x4_epi64(found.slots, 1);
-    _mm512_storeu_si512(indices + 32 * half,
-                        _mm512_mask_cvtepu8_epi16(none, static_cast<__mmask32>(found.known >> 32 * half), slots));
+    const __m256i slots =
+        half == 0 ? _mm512_castsi512_si256(found.slots) : _mm512_extracti64x4_epi64(found.slots, 1);
+    _mm512_storeu_si512(
+        indices + 32 * half,
+        _mm512_mask_cvtepu8_epi16(none, static_cast<__mmask32>(found.known >> 32 * half), slots));
   };
   store(0);
   store(1);
@@ -159,8 +162,8 @@ TILEPRESS_VBMI void index_slots(const BlockKeys& keys, const SlotTable& table, u
   __m512i largest = _mm512_max_epu8(found.slots, _mm512_rol_epi32(found.slots, 8));
   largest = _mm512_max_epu8(largest, _mm512_rol_epi32(largest, 16));
   const __mmask64 raw = _mm512_test_epi8_mask(largest, _mm512_set1_epi8(SlotTable::kAbsent));
-  const __m512i width = _mm512_mask_mov_epi8(
-      _mm512_permutexvar_epi8(largest, _mm512_load_si512(kWidths.of)), raw, none);
+  const __m512i width =
+      _mm512_mask_mov_epi8(_mm512_permutexvar_epi8(largest, _mm512_load_si512(kWidths.of)), raw, none);
   _mm_storeu_si128(reinterpret_cast<__m128i*>(widths), _mm512_cvtepi32_epi8(width));
 }
 
@@ -173,9 +176,9 @@ TILEPRESS_VBMI_INLINE __m512i index_bytes(const uint16_t* indices) {
 
 TILEPRESS_VBMI uint32_t code_sum(const uint16_t* indices, const uint8_t* lengths, uint32_t raw_bits) {
   const __m512i index = index_bytes(indices);
-  const __m512i bits = _mm512_mask_mov_epi8(_mm512_permutexvar_epi8(index, _mm512_loadu_si512(lengths)),
-                                            _mm512_movepi8_mask(index),
-                                            _mm512_set1_epi8(static_cast<char>(raw_bits)));
+  const __m512i bits =
+      _mm512_mask_mov_epi8(_mm512_permutexvar_epi8(index, _mm512_loadu_si512(lengths)),
+                           _mm512_movepi8_mask(index), _mm512_set1_epi8(static_cast<char>(raw_bits)));
   const __m512i pairs = _mm512_maddubs_epi16(bits, _mm512_set1_epi8(1));
   const __m512i sums = _mm512_madd_epi16(pairs, _mm512_set1_epi16(1));
   return static_cast<uint32_t>(
@@ -188,8 +191,7 @@ TILEPRESS_VBMI_INLINE __m512i packed_indices(const uint16_t* indices, __m512i wi
   const __m512i one = _mm512_set1_epi32(1);
   // Pairs of indices, the first · 2^width + the second, and then pairs of pairs.
   const __m512i by_width = _mm512_sllv_epi32(_mm512_set1_epi32(0x00010001), widths);
-  const __m512i pairs =
-      _mm512_maddubs_epi16(_mm512_or_si512(by_width, _mm512_set1_epi32(0x01000100)), bytes);
+  const __m512i pairs = _mm512_maddubs_epi16(_mm512_or_si512(by_width, _mm512_set1_epi32(0x01000100)), bytes);
   const __m512i by_two_widths = _mm512_sllv_epi32(one, _mm512_add_epi32(widths, widths));
   return _mm512_madd_epi16(pairs, _mm512_or_si512(by_two_widths, _mm512_set1_epi32(0x00010000)));
 }
@@ -226,9 +228,9 @@ TILEPRESS_VBMI_INLINE uint64_t four_of_each(uint32_t bits) {
   return _pdep_u64(bits, 0x1111111111111111) * 15;
 }
 
-// A sub-block's bits are a multiple of four: it begins with a byte or amid one. All sixteen are laid out, in 16
-// bytes each, as they lie in memory, those that begin amid a byte with the nibble before them on top; and then
-// written one after the other, each over the zeros behind the one before.
+// A sub-block's bits are a multiple of four: it begins with a byte or amid one. All sixteen are laid out, in
+// 16 bytes each, as they lie in memory, those that begin amid a byte with the nibble before them on top; and
+// then written one after the other, each over the zeros behind the one before.
 TILEPRESS_VBMI WrittenBlock write_sub_blocks(const uint32_t* pixels, const uint16_t* indices,
                                              const uint8_t* widths, uint32_t mark_bits, uint8_t* out) {
   const auto marks_at = [&](uint32_t sub) TILEPRESS_VBMI {
@@ -262,14 +264,14 @@ TILEPRESS_VBMI WrittenBlock write_sub_blocks(const uint32_t* pixels, const uint1
   const __m512i fourth_of_two = _mm512_setr_epi32(3, 7, 11, 15, 19, 23, 27, 31, 0, 0, 0, 0, 0, 0, 0, 0);
   const auto fourth_of = [&](uint32_t half) TILEPRESS_VBMI {
     const uint32_t* words = pixels + half * kLanes / 2;
-    return _mm512_castsi512_si256(_mm512_permutex2var_epi32(_mm512_loadu_si512(words), fourth_of_two,
-                                                            _mm512_loadu_si512(words + 16)));
+    return _mm512_castsi512_si256(
+        _mm512_permutex2var_epi32(_mm512_loadu_si512(words), fourth_of_two, _mm512_loadu_si512(words + 16)));
   };
   const __m512i fourth = _mm512_inserti64x4(_mm512_castsi256_si512(fourth_of(0)), fourth_of(1), 1);
   const __m512i last = _mm512_and_si512(_mm512_mask_mov_epi32(packed, raw, fourth), _mm512_set1_epi32(15));
   const __mmask16 any = _mm_test_epi8_mask(width8, width8);
-  const __m512i those_before = _mm512_setr_epi32(0, 1, 3, 7, 15, 31, 63, 127, 255, 511, 1023, 2047, 4095, 8191,
-                                                 16383, 32767);
+  const __m512i those_before =
+      _mm512_setr_epi32(0, 1, 3, 7, 15, 31, 63, 127, 255, 511, 1023, 2047, 4095, 8191, 16383, 32767);
   const __m512i number = _mm512_popcnt_epi32(_mm512_and_si512(those_before, _mm512_set1_epi32(any)));
   const __m512i before = _mm512_maskz_permutexvar_epi32(static_cast<__mmask16>(amid),
                                                         _mm512_sub_epi32(number, _mm512_set1_epi32(1)),
@@ -288,7 +290,8 @@ TILEPRESS_VBMI WrittenBlock write_sub_blocks(const uint32_t* pixels, const uint1
     at += nibbles[sub];
   };
   for (uint32_t sub = 0; sub < kSubBlocks; sub += 4) {
-    const __m512i words = _mm512_maskz_loadu_epi32(static_cast<__mmask16>(raw_words >> 4 * sub), pixels + 4 * sub);
+    const __m512i words =
+        _mm512_maskz_loadu_epi32(static_cast<__mmask16>(raw_words >> 4 * sub), pixels + 4 * sub);
     const __m512i moved = _mm512_mask_shrdi_epi32(words, static_cast<__mmask16>(amid_words >> 4 * sub), words,
                                                   _mm512_bslli_epi128(words, 4), 4);
     const __m512i firsts = _mm512_maskz_permutexvar_epi32(0x1111, from, first);

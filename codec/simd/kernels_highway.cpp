@@ -410,8 +410,7 @@ std::vector<const Kernels*> highway_kernels() {
 #if HWY_TARGETS & HWY_AVX3
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512cd"))
-  {
+      __builtin_cpu_supports("avx512cd")) {
     if (const Kernels* better = byte_permute_kernels(N_AVX3::Set("avx512")); better != nullptr)
       sets.push_back(better);
     sets.push_back(&N_AVX3::Set("avx512"));

@@ -32,8 +32,8 @@ bool is_solid(const uint32_t* top_left, uint32_t stride, uint32_t color) {
 
 void fill_widths(const uint16_t* indices, uint8_t* widths) {
   for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-    const uint16_t largest = *std::max_element(indices + sub * kSubBlockPixels,
-                                               indices + (sub + 1) * kSubBlockPixels);
+    const uint16_t largest =
+        *std::max_element(indices + sub * kSubBlockPixels, indices + (sub + 1) * kSubBlockPixels);
     widths[sub] = largest == kNotInCcd ? kRawWidth : static_cast<uint8_t>(std::bit_width(largest));
   }
 }
@@ -207,8 +207,7 @@ uint64_t count_slots_plainly(const uint8_t* slots, uint64_t wanted, uint32_t* co
   return wanted;
 }
 
-void index_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint16_t* indices,
-                         uint8_t* widths) {
+void index_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint16_t* indices, uint8_t* widths) {
   uint8_t slots[kLanes];
   find_slots_plainly(keys, table, slots);
   for (uint32_t i = 0; i < kLanes; ++i) indices[i] = slots[i] == SlotTable::kAbsent ? kNotInCcd : slots[i];

@@ -12,8 +12,8 @@ void SlotTable::clear() {
   stashed = 0;
 }
 
-/// Puts the slot into one of its buckets, and who was there into its other one, and so on; if this does not end,
-/// who is left is stashed.
+/// Puts the slot into one of its buckets, and who was there into its other one, and so on; if this does not
+/// end, who is left is stashed.
 void SlotTable::place(uint32_t slot) {
   constexpr uint32_t kMoves = 32;
   auto moving = static_cast<uint8_t>(slot);

@@ -44,8 +44,8 @@ class BitWriter {
     store(accumulator_ | value >> pending_);
     accumulator_ = pending_ == 0 ? 0 : value << (64 - pending_);
   }
-  /// The next `bytes` bytes, for who writes bits there himself and tells by wrote(); null if bits are held back
-  /// or so many bytes do not fit.
+  /// The next `bytes` bytes, for who writes bits there himself and tells by wrote(); null if bits are held
+  /// back or so many bytes do not fit.
   uint8_t* at_byte(size_t bytes) {
     const bool fit = position_ <= buffer_.size() && bytes <= buffer_.size() - position_;
     return pending_ == 0 && fit ? buffer_.data() + position_ : nullptr;
