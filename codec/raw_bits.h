@@ -25,8 +25,12 @@ inline void write_raw_pixels(const uint32_t* pixels, uint32_t count, uint32_t pi
 }
 
 inline void read_raw_sub_block(BitReader& in, uint32_t sub, uint32_t pixel_bits, Block& block) {
-  for (uint32_t i = 0; i < kSubBlockPixels; ++i)
-    block.pixels[sub_block_pixel(sub, i)] = static_cast<uint32_t>(in.get(pixel_bits));
+  for (uint32_t i = 0; i < kSubBlockPixels; i += 2) {
+    const uint64_t pair = pixel_bits == 32 ? in.get64() : in.get(2 * pixel_bits);
+    block.pixels[sub_block_pixel(sub, i)] = static_cast<uint32_t>(pair >> pixel_bits);
+    block.pixels[sub_block_pixel(sub, i + 1)] =
+        static_cast<uint32_t>(pair & ((uint64_t{1} << pixel_bits) - 1));
+  }
 }
 
 /// A raw block is its sixteen raw sub-blocks in order: its pixels in traversal order.

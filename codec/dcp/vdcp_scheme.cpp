@@ -70,13 +70,14 @@ class VdcpDecoder final : public DcpFamilyDecoder {
     const uint64_t width = marks & ((1u << csb_bits) - 1);
     if (width > index_bits_ || marks >> csb_bits != (marks & ((uint64_t{1} << 7 * csb_bits) - 1)))
       return false;
-    const auto bits = static_cast<uint32_t>(kSubBlockPixels * width);
+    const uint32_t at_once = 8 * width <= kMaxBitsPerCall ? 8 : 4;
+    const auto bits = static_cast<uint32_t>(at_once * width);
     BitReader in = payload;
     const uint64_t indices = in.get(bits);
-    for (uint32_t sub = 1; sub < kSubBlocks; ++sub)
+    for (uint32_t i = at_once; i < kBlockPixels && width != 0; i += at_once)
       if (in.get(bits) != indices) return false;
     const uint64_t index = indices & ((uint64_t{1} << width) - 1);
-    const bool alike = indices >> width == (indices & ((uint64_t{1} << 3 * width) - 1));
+    const bool alike = indices >> width == (indices & ((uint64_t{1} << (at_once - 1) * width) - 1));
     if (!alike || index >= rccd_.colors.size()) return false;
     out.pixels.fill(rccd_.colors[index]);
     payload = in;

@@ -58,6 +58,9 @@ bool SurfaceReader::State::load(uint64_t number) {
   const uint64_t csb_end = (number + 1) * surface->csb_bits;
   BitReader csb(surface->csb, csb_end);
   csb.skip(csb_end - surface->csb_bits);
+  // Slots lie too far apart for the processor to guess the next.
+  if (number + 2 < surface->blocks())
+    __builtin_prefetch(&surface->payload[(number + 2) * surface->slot_bytes()]);
   BitReader payload(
       std::span(surface->payload).subspan(number * surface->slot_bytes(), surface->slot_bytes()));
   if (!decoder->decode(csb, payload, kept)) return false;

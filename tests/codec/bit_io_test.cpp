@@ -37,6 +37,43 @@ TEST(BitIo, TheLargestCallFitsBesideSevenPendingBits) {
   EXPECT_FALSE(reader.overran());
 }
 
+TEST(BitIo, SixtyFourBitsComeBackFromAnyPlace) {
+  const uint64_t value = 0x0123456789ABCDEFu;
+  for (uint32_t before = 0; before < 20; ++before)
+    for (uint32_t room : {0u, 1u, 8u}) {  // bytes behind
+      std::vector<uint8_t> bytes((before + 64 + 7) / 8 + room);
+      BitWriter writer(bytes);
+      writer.put((uint64_t{1} << before) - 1, before);
+      writer.put64(value);
+      writer.flush();
+      BitReader reader(bytes, before + 64);
+      EXPECT_EQ(reader.get(before), (uint64_t{1} << before) - 1);
+      EXPECT_EQ(reader.get64(), value) << before << ", " << room;
+      EXPECT_EQ(reader.position(), before + 64);
+      EXPECT_FALSE(reader.overran());
+      BitReader short_reader(bytes, before + 40);  // zeros past the end
+      short_reader.skip(before);
+      EXPECT_EQ(short_reader.get64(), value >> 24 << 24);
+      EXPECT_TRUE(short_reader.overran());
+    }
+}
+
+TEST(BitIo, BitsWrittenByOthersAreCountedAndGoOn) {
+  std::array<uint8_t, 4> bytes{};
+  BitWriter writer(bytes);
+  EXPECT_EQ(writer.at_byte(5), nullptr);
+  uint8_t* out = writer.at_byte(4);
+  ASSERT_EQ(out, bytes.data());
+  out[0] = 0xAB;
+  out[1] = 0xC0;
+  writer.wrote(12);
+  EXPECT_EQ(writer.bit_count(), 12u);
+  EXPECT_EQ(writer.at_byte(1), nullptr);
+  writer.put(0xDE, 8);
+  writer.flush();
+  EXPECT_EQ(bytes, (std::array<uint8_t, 4>{0xAB, 0xCD, 0xE0, 0}));
+}
+
 TEST(BitIo, UnaryOfAnyLengthComesBack) {
   for (uint32_t count : {0u, 1u, 31u, 32u, 33u, 64u, 100u}) {
     std::array<uint8_t, 16> bytes{};

@@ -106,6 +106,19 @@ class BitReader {
     position_ += count;
     return count == 0 ? 0 : window >> (64 - count);
   }
+  /// Next 64 bits, highest first.
+  uint64_t get64() {
+    const uint64_t byte = position_ >> 3;
+    if (byte + 9 > buffer_.size() || position_ + 64 > end_) {
+      const uint64_t upper = get(32);
+      return upper << 32 | get(32);
+    }
+    uint64_t word;
+    std::memcpy(&word, &buffer_[byte], 8);
+    const uint32_t used = position_ & 7;
+    position_ += 64;
+    return bit_io::big_endian(word) << used | buffer_[byte + 8] >> (8 - used);
+  }
   /// Number of one-bits before the next zero-bit, which is consumed; gives up and returns more than `limit`
   /// past that many.
   uint32_t get_unary(uint32_t limit) {
