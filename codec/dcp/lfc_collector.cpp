@@ -279,8 +279,11 @@ void LfcCollector::take_block(const uint32_t* pixels, const Find& find) {
       fill_slot(pixels[lane], 1);
       changed = true;
     } else if (misses != 0) {
-      std::array<uint32_t, kLanes + 16> colors;
-      uint64_t alike = kernels().compact(pixels, misses, tail_color_, colors.data());
+      std::array<uint32_t, kLanes + 16> packed;
+      const bool all = misses == ~uint64_t{0};  // then there is nothing to pack
+      const uint32_t* colors = all ? pixels : packed.data();
+      uint64_t alike = all ? ~kernels().run_begins(pixels) | (pixels[0] == tail_color_ ? 1 : 0)
+                           : kernels().compact(pixels, misses, tail_color_, packed.data());
       for (uint32_t taken = 0; misses != 0 && !changed;) {
         const uint32_t settles = first_to_settle(alike), left = bit_count(misses);
         const uint32_t count = std::min(settles + 1, left);

@@ -167,6 +167,38 @@ TILEPRESS_VBMI void index_slots(const BlockKeys& keys, const SlotTable& table, u
   _mm_storeu_si128(reinterpret_cast<__m128i*>(widths), _mm512_cvtepi32_epi8(width));
 }
 
+// Neighbours are compared in registers: to load what was just stored elsewhere than where it was stored
+// waits.
+TILEPRESS_VBMI uint64_t run_begins(const uint32_t* pixels) {
+  __m512i before = _mm512_loadu_si512(pixels);
+  uint64_t begins = 1;
+  for (uint32_t i = 0; i < kLanes; i += 16) {
+    const __m512i now = _mm512_loadu_si512(pixels + i);
+    const __mmask16 differs = _mm512_cmpneq_epi32_mask(now, _mm512_alignr_epi32(now, before, 15));
+    begins |= uint64_t{i == 0 ? differs & 0xFFFEu : differs} << i;
+    before = now;
+  }
+  return begins;
+}
+
+TILEPRESS_VBMI uint64_t compact(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out) {
+  __m512i last = _mm512_set1_epi32(static_cast<int>(before));  // of those packed, in every lane
+  uint64_t alike = 0;
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < kLanes; i += 16) {
+    const auto wanted = static_cast<__mmask16>(mask >> i);
+    const auto more = static_cast<uint32_t>(__builtin_popcount(wanted));
+    const __m512i packed = _mm512_maskz_compress_epi32(wanted, _mm512_loadu_si512(pixels + i));
+    _mm512_storeu_si512(out + count, packed);
+    const __mmask16 same = _mm512_cmpeq_epi32_mask(packed, _mm512_alignr_epi32(packed, last, 15));
+    alike |= uint64_t{same & ((1u << more) - 1)} << count;
+    const __m512i next = _mm512_permutexvar_epi32(_mm512_set1_epi32(static_cast<int>(more) - 1), packed);
+    last = more != 0 ? next : last;
+    count += more;
+  }
+  return alike;
+}
+
 /// 64 indices of up to 8 bits, or 0xFF.
 TILEPRESS_VBMI_INLINE __m512i index_bytes(const uint16_t* indices) {
   const __m256i low = _mm512_cvtepi16_epi8(_mm512_loadu_si512(indices));
@@ -320,6 +352,8 @@ const Kernels* byte_permute_kernels(const Kernels& base) {
     set.name = "avx512vbmi";
     set.byte_permutes = true;
     set.load_traversal = load_traversal;
+    set.run_begins = run_begins;
+    set.compact = compact;
     set.find_slots = find_slots;
     set.count_slots = count_slots;
     set.index_slots = index_slots;
