@@ -79,23 +79,31 @@ class Indices {
     const Words d;
     const hn::RebindToSigned<Words> di;
     const hn::Rebind<uint16_t, Words> d16;
-    const hn::Rebind<uint8_t, Words> d8;
-    const hn::RebindToFloat<Words> df;
     hn::StoreU(hn::DemoteTo(d16, hn::BitCast(di, index)), d16, indices + i);
     const auto pair = hn::Max(index, hn::Shuffle2301(index));
-    const auto largest = hn::BitCast(di, hn::Max(pair, hn::Shuffle1032(pair)));
-    // The exponent of a positive integer as a float is its bit width - 1 + 127; that of 0 is 0.
-    const auto exponent = hn::ShiftRight<23>(hn::BitCast(di, hn::ConvertTo(df, largest)));
-    const auto width = hn::Max(hn::Sub(exponent, hn::Set(di, 126)), hn::Zero(di));
-    const auto absent = hn::Eq(largest, hn::Set(di, kNotInCcd));
-    hn::StoreU(hn::DemoteTo(d8, hn::IfThenElse(absent, hn::Set(di, kRawWidth), width)), d8, of_pixels_ + i);
+    hn::StoreU(hn::Max(pair, hn::Shuffle1032(pair)), d, largest_ + i);
   }
   HWY_INLINE void Widths(uint8_t* HWY_RESTRICT widths) const {
-    for (uint32_t sub = 0; sub < kSubBlocks; ++sub) widths[sub] = of_pixels_[sub * kSubBlockPixels];
+    const Words d;
+    const hn::RebindToSigned<Words> di;
+    const hn::Rebind<uint8_t, Words> d8;
+    const hn::RebindToFloat<Words> df;
+    const size_t lanes = hn::Lanes(d);
+    for (size_t sub = 0; sub < kSubBlocks; sub += lanes) {
+      const uint32_t* at = largest_ + sub * kSubBlockPixels;  // the four of a sub-block are alike
+      const auto lower = hn::ConcatEven(d, hn::LoadU(d, at + lanes), hn::LoadU(d, at));
+      const auto upper = hn::ConcatEven(d, hn::LoadU(d, at + 3 * lanes), hn::LoadU(d, at + 2 * lanes));
+      const auto largest = hn::BitCast(di, hn::ConcatEven(d, upper, lower));
+      // The exponent of a positive integer as a float is its bit width - 1 + 127; that of 0 is 0.
+      const auto exponent = hn::ShiftRight<23>(hn::BitCast(di, hn::ConvertTo(df, largest)));
+      const auto width = hn::Max(hn::Sub(exponent, hn::Set(di, 126)), hn::Zero(di));
+      const auto absent = hn::Eq(largest, hn::Set(di, kNotInCcd));
+      hn::StoreU(hn::DemoteTo(d8, hn::IfThenElse(absent, hn::Set(di, kRawWidth), width)), d8, widths + sub);
+    }
   }
 
  private:
-  HWY_ALIGN uint8_t of_pixels_[kLanes];
+  HWY_ALIGN uint32_t largest_[kLanes];
 };
 
 void Find(const uint32_t* HWY_RESTRICT pixels, const ProbeTable& table, uint16_t* HWY_RESTRICT indices,
