@@ -14,8 +14,8 @@ class ColorHistogram {
     uint32_t count;  ///< 0 = empty slot
   };
 
-  /// Empties it. The table will have at most `largest_size` slots, and be seven eighths full
-  /// then, half before.
+  /// Empties it. The table will have at most `largest_size` slots, and be seven eighths full then,
+  /// half before.
   void clear(size_t largest_size);
   /// Gives its memory back; clear() before it is used again.
   void release() { table_ = {}; }
