@@ -47,11 +47,15 @@ class VdcpDecoder final : public DcpFamilyDecoder {
     uint64_t marks[2] = {0, 0};  // of eight sub-blocks each
     for (uint64_t& half : marks)
       if (!off_) half = csb.get(8 * csb_bits);
-    if (!off_ && marks[0] == marks[1] && decode_solid(marks[0], csb_bits, payload, out))
+    const uint64_t all_raw = (uint64_t{1} << 8 * csb_bits) - 1;
+    if (off_ || (marks[0] == all_raw && marks[1] == all_raw)) {
+      read_raw_block(payload, pixel_bits_, out);
+      return !csb.overran() && !payload.overran();
+    }
+    if (marks[0] == marks[1] && decode_solid(marks[0], csb_bits, payload, out))
       return !csb.overran() && !payload.overran();
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-      const auto width =
-          off_ ? raw_mark : static_cast<uint32_t>(marks[sub / 8] >> (7 - sub % 8) * csb_bits & raw_mark);
+      const auto width = static_cast<uint32_t>(marks[sub / 8] >> (7 - sub % 8) * csb_bits & raw_mark);
       if (width == raw_mark)
         read_raw_sub_block(payload, sub, pixel_bits_, out);
       else if (width > index_bits_ || !vdcp_decode_sub_block(rccd_, width, sub, payload, out))

@@ -74,6 +74,20 @@ TEST(BitIo, BitsWrittenByOthersAreCountedAndGoOn) {
   EXPECT_EQ(bytes, (std::array<uint8_t, 4>{0xAB, 0xCD, 0xE0, 0}));
 }
 
+TEST(BitIo, BytesAreThereOnlyWhereAllOfThemAre) {
+  const std::array<uint8_t, 4> bytes{1, 2, 3, 4};
+  BitReader reader(bytes, 30);
+  EXPECT_EQ(reader.at_byte(3), bytes.data());
+  EXPECT_EQ(reader.at_byte(4), nullptr);  // two bits short
+  reader.skip(8);
+  EXPECT_EQ(reader.at_byte(2), bytes.data() + 1);
+  EXPECT_EQ(reader.at_byte(3), nullptr);
+  reader.skip(1);
+  EXPECT_EQ(reader.at_byte(1), nullptr);
+  reader.skip(31);
+  EXPECT_EQ(reader.at_byte(0), nullptr);  // behind the end
+}
+
 TEST(BitIo, UnaryOfAnyLengthComesBack) {
   for (uint32_t count : {0u, 1u, 31u, 32u, 33u, 64u, 100u}) {
     std::array<uint8_t, 16> bytes{};

@@ -136,6 +136,11 @@ class BitReader {
     }
   }
   void skip(uint64_t count) { position_ += count; }
+  /// The next `bytes` bytes, not consumed; null if they do not begin with a byte or are not all there.
+  const uint8_t* at_byte(size_t bytes) const {
+    const bool there = position_ % 8 == 0 && position_ <= end_ && bytes * 8 <= end_ - position_;
+    return there ? buffer_.data() + position_ / 8 : nullptr;
+  }
   uint64_t position() const { return position_; }
   bool overran() const { return position_ > end_; }
 
