@@ -28,14 +28,15 @@ void Ccd::build(const Fvc& fvc) {
 }
 
 void CcdLookup::build(const Ccd& ccd) {
+  collision_free_ = false;
   has_slots_ = kernels().byte_permutes && ccd.entries <= SlotTable::kSlots;
   if (has_slots_) {
     slots_.clear();
     for (uint32_t i = 0; i < ccd.colors.size(); ++i) slots_.insert(i, ccd.colors[i]);
+    return;
   }
   constexpr uint32_t kTries = 64;
   const uint32_t buckets = std::max(16u, ccd.entries * (ccd.entries <= 128 ? 32 : 64));
-  collision_free_ = false;
   for (uint32_t n = 0; n < kTries && !collision_free_ && ccd.entries <= 512; ++n) {
     table_.multiplier = ProbeTable::multiplier_of(n);
     table_.reset(buckets, true);

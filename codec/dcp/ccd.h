@@ -41,6 +41,10 @@ class CcdLookup {
   void build(const Ccd& ccd);
   /// CCD index of the colour, kNotInCcd if it has none.
   uint16_t find(uint32_t color) const {
+    if (has_slots_) {
+      const uint32_t slot = slots_.find(color);
+      return slot == SlotTable::kAbsent ? kNotInCcd : static_cast<uint16_t>(slot);
+    }
     for (uint32_t at = table_.bucket(color);; at = (at + 1) & (table_.size() - 1))
       if (table_.values[at] == kNotInCcd || table_.colors[at] == color)
         return static_cast<uint16_t>(table_.values[at]);
@@ -56,7 +60,7 @@ class CcdLookup {
   ProbeTable table_;
   bool collision_free_ = false;
   SlotTable slots_;
-  bool has_slots_ = false;  ///< slots_ holds the dictionary, too
+  bool has_slots_ = false;  ///< slots_ holds the dictionary, and table_ nothing
 };
 
 /// The reversed dictionary that travels with a compressed surface: slots of a valid bit and a colour, so

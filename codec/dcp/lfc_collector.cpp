@@ -306,15 +306,14 @@ void LfcCollector::take_block(const uint32_t* pixels, const Find& find) {
 }
 
 void LfcCollector::see_block(const uint32_t* pixels, const BlockKeys* keys) {
-  samples_ += kLanes;
-  if (by_slots_ && keys != nullptr)
-    return take_block<uint8_t>(pixels,
-                               [&](uint8_t* slots) { return kernels().find_slots(*keys, slots_, slots); });
-  if (by_slots_) {
-    samples_ -= kLanes;
+  if (by_slots_ && keys == nullptr) {
     for (uint32_t i = 0; i < kLanes; ++i) see_run(pixels[i], 1);
     return;
   }
+  samples_ += kLanes;
+  if (by_slots_)
+    return take_block<uint8_t>(pixels,
+                               [&](uint8_t* slots) { return kernels().find_slots(*keys, slots_, slots); });
   take_block<uint32_t>(pixels, [&](uint32_t* places) -> FoundSlots {
     return {kernels().members(pixels, table_, crowded_colors_.data(), crowded_, places), ~uint64_t{0}};
   });

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <utility>
 
 #include "simd/kernels.h"
+#include "simd/mask_runs.h"
 
 namespace tilepress {
 namespace {
@@ -51,16 +51,8 @@ void for_each_run(const PixelPlane& frame, uint32_t y, const Visit& visit) {
       std::fill(std::copy_n(pixels, inside, last), last + kLanes, pixels[inside - 1]);
       pixels = last;
     }
-    uint64_t begins = kernel.run_begins(pixels);
-    while (true) {
-      const auto begin = static_cast<uint32_t>(std::countr_zero(begins));
-      begins &= begins - 1;
-      if (begins == 0) {
-        visit(pixels[begin], inside - begin);
-        break;
-      }
-      visit(pixels[begin], static_cast<uint32_t>(std::countr_zero(begins)) - begin);
-    }
+    for_each_mask_run(kernel.run_begins(pixels), inside,
+                      [&](uint32_t first, uint32_t length) { visit(pixels[first], length); });
   }
 }
 

@@ -2,11 +2,11 @@
 #include "statistics/frame_metrics.h"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "dcp/fvc.h"
 #include "simd/bit_count.h"
+#include "simd/mask_runs.h"
 
 namespace tilepress {
 namespace {
@@ -61,13 +61,11 @@ void FrameMeter::see_all(const uint32_t* pixels, uint32_t count) {
 }
 
 void FrameMeter::see_pixels(const uint32_t* pixels, uint32_t count, uint64_t alike) {
-  uint64_t begins = (~alike & ~uint64_t{0} >> (kLanes - count)) | 1;
-  while (begins != 0 && counting_) {  // colours that come back soon are not among these
-    const auto begin = static_cast<uint32_t>(std::countr_zero(begins));
-    begins &= begins - 1;
-    const uint32_t end = begins != 0 ? static_cast<uint32_t>(std::countr_zero(begins)) : count;
-    counting_ = now_.add(pixels[begin], end - begin);
-  }
+  if (!counting_) return;
+  const uint64_t begins = (~alike & ~uint64_t{0} >> (kLanes - count)) | 1;
+  for_each_mask_run(begins, count, [&](uint32_t first, uint32_t length) {  // these hardly come back soon
+    counting_ = counting_ && now_.add(pixels[first], length);
+  });
 }
 
 void FrameMeter::see_block(const FewColors& few) {
