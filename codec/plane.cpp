@@ -10,6 +10,8 @@
 namespace tilepress {
 namespace {
 
+constexpr ptrdiff_t kMaxStride = 1 << 20;  ///< so that a place in a row of blocks is a 32-bit number
+
 uint32_t round_up_to_block(uint32_t pixels) {
   return (pixels + kBlockSide - 1) / kBlockSide * kBlockSide;
 }
@@ -36,15 +38,36 @@ uint32_t copy_row(const std::byte* source, const SurfaceView& view, uint32_t* ta
 
 }  // namespace
 
-void PixelPlane::reshape(const SurfaceView& view) {
+void PixelPlane::take_shape(const SurfaceView& view) {
   assert(view.width >= 1 && view.width <= kMaxSurfaceSide && view.height >= 1 &&
          view.height <= kMaxSurfaceSide && traits(view.format).modelled);
   width_ = view.width;
   height_ = view.height;
   format_ = view.format;
-  stride_ = round_up_to_block(width_);
+  padded_width_ = round_up_to_block(width_);
   padded_height_ = round_up_to_block(height_);
+}
+
+void PixelPlane::reshape(const SurfaceView& view) {
+  take_shape(view);
+  stride_ = padded_width_;
+  referred_ = nullptr;
   words_.resize(size_t{stride_} * padded_height_);
+}
+
+bool PixelPlane::refer_to(const SurfaceView& view) {
+  const bool words = view.format != PixelFormat::kRgb565 && view.format != PixelFormat::kRgbx8 &&
+                     (view.format != PixelFormat::kRgba8 || view.order == ByteOrder::kRgba);
+  const bool aligned = reinterpret_cast<uintptr_t>(view.top_row) % alignof(uint32_t) == 0 &&
+                       view.pitch_bytes > 0 && view.pitch_bytes % ptrdiff_t{sizeof(uint32_t)} == 0;
+  const ptrdiff_t stride = view.pitch_bytes / ptrdiff_t{sizeof(uint32_t)};
+  if (!words || !aligned || stride > kMaxStride || view.width % kBlockSide != 0 ||
+      view.height % kBlockSide != 0)
+    return false;
+  take_shape(view);
+  stride_ = static_cast<uint32_t>(stride);
+  referred_ = reinterpret_cast<const uint32_t*>(view.top_row);
+  return true;
 }
 
 uint64_t PixelPlane::assign_rows(const SurfaceView& view, uint32_t begin, uint32_t end,
@@ -55,7 +78,7 @@ uint64_t PixelPlane::assign_rows(const SurfaceView& view, uint32_t begin, uint32
     uint8_t* blocks =
         changed_blocks == nullptr ? nullptr : changed_blocks + size_t{y / kBlockSide} * blocks_x();
     changed += copy_row(view.row(y), view, target, blocks);
-    std::fill(target + width_, target + stride_, target[width_ - 1]);
+    std::fill(target + width_, target + padded_width_, target[width_ - 1]);
   }
   for (uint32_t y = height_; y < end; ++y)
     std::copy_n(row(height_ - 1), stride_, words_.data() + size_t{y} * stride_);

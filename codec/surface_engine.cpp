@@ -14,6 +14,7 @@
 #include "dcp/collector.h"
 #include "memory/surface_store.h"
 #include "ras/ras_memo.h"
+#include "row_prefetch.h"
 #include "simd/kernels.h"
 #include "statistics/frame_metrics.h"
 #include "tilepress/scheme.h"
@@ -55,7 +56,9 @@ struct SurfaceEngine::State {
   std::deque<Collector> collectors;  ///< with frame_metrics the first is the default, theirs
   std::vector<Lane> lanes;
   PixelPlane now;
-  uint64_t changed = 0;  ///< pixels, since the frame before
+  bool referred = false;  ///< now is the frame where it lies, and no copy
+  RowPrefetch prefetch;   ///< if it is
+  uint64_t changed = 0;   ///< pixels, since the frame before
   RasMemo ras_memo;
   FrameMeter meter;
   BlockCheck check;
@@ -64,7 +67,8 @@ struct SurfaceEngine::State {
   bool opened = false;      ///< lanes and collectors are there
   bool needs_ras = false, needs_ras_ycocg = false, needs_raster = false, needs_raster_to_encode = false;
   bool needs_whole_frame = false;
-  bool can_repeat = true;  ///< a block of the colour of the one before counts like that one
+  bool compares_frames = false;  ///< with the one before, so that a copy of it is needed
+  bool can_repeat = true;        ///< a block of the colour of the one before counts like that one
   /// The block visited last, if it was of one colour, and how often it came again.
   struct {
     bool solid = false;
@@ -93,12 +97,13 @@ struct SurfaceEngine::State {
   Collector& collector_for(const FvcConfig& config, const FormatTraits& format);
   void begin_frame();
   void take_rows(uint32_t begin, uint32_t end);
+  void prefetch_tiles(uint32_t begin);
   void advance();
   void visit_block(uint32_t bx, uint32_t by, const FormatTraits& format);
-  bool repeat_block(uint32_t bx, uint32_t by, const uint32_t* top_left);
+  uint32_t repeat_blocks(uint32_t bx, uint32_t bx_end, uint32_t by);
   void settle_repeats();
-  uint32_t pixels_inside(uint32_t bx, uint32_t by) const;
-  void collect_solid(uint32_t bx, uint32_t by, uint32_t color);
+  uint32_t pixels_inside(uint32_t bx, uint32_t blocks, uint32_t by) const;
+  void collect_solid(uint32_t count, uint32_t color);
   void collect(const BlockContext& block);
   void settle_run();
   bool split_few(const uint32_t* pixels);
@@ -140,12 +145,15 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
     can_repeat &= !lane.needs.place && !options.verify;
     lanes.push_back(std::move(lane));
   }
+  compares_frames = options.frame_metrics || needs_ras || needs_ras_ycocg;
   wants_keys = kernels().byte_permutes && !collectors.empty();
 }
 
 void SurfaceEngine::State::begin_frame() {
-  now.reshape(frame);
   if (!opened) open(traits(frame.format));
+  const uint64_t tile_bytes = uint64_t{options.tile_side} * frame.width * sizeof(uint32_t);
+  referred = !compares_frames && tile_bytes <= RowPrefetch::kMostBytes && now.refer_to(frame);
+  if (!referred) now.reshape(frame);
   out->width = frame.width;
   out->height = frame.height;
   out->format = frame.format;
@@ -184,14 +192,21 @@ void SurfaceEngine::State::begin_frame() {
   }
 }
 
-/// Takes a copy of rows `begin` to `end` of blocks.
+/// Takes a copy of rows `begin` to `end` of blocks, if one is needed.
 void SurfaceEngine::State::take_rows(uint32_t begin, uint32_t end) {
+  if (referred) return;
   changed += now.assign_rows(frame, begin * kBlockSide, end * kBlockSide, ras_memo.changed_blocks());
 }
 
-/// Pixels of a block that lie inside the surface: padding never enters the FVC.
-uint32_t SurfaceEngine::State::pixels_inside(uint32_t bx, uint32_t by) const {
-  return std::min(kBlockSide, now.width() - bx * kBlockSide) *
+/// While the row of tiles before row `begin` of blocks is visited, those of the next one are asked for.
+void SurfaceEngine::State::prefetch_tiles(uint32_t begin) {
+  const uint32_t end = std::min(begin + options.tile_side / kBlockSide, now.blocks_y());
+  prefetch.aim(now, begin * kBlockSide, end * kBlockSide);
+}
+
+/// Pixels of blocks side by side that lie inside the surface: padding never enters the FVC.
+uint32_t SurfaceEngine::State::pixels_inside(uint32_t bx, uint32_t blocks, uint32_t by) const {
+  return std::min(blocks * kBlockSide, now.width() - bx * kBlockSide) *
          std::min(kBlockSide, now.height() - by * kBlockSide);
 }
 
@@ -202,17 +217,16 @@ void SurfaceEngine::State::settle_run() {
   run.count = 0;
 }
 
-void SurfaceEngine::State::collect_solid(uint32_t bx, uint32_t by, uint32_t color) {
-  const uint32_t count = pixels_inside(bx, by);
+void SurfaceEngine::State::collect_solid(uint32_t count, uint32_t color) {
   if (run.color != color) settle_run();
   run.color = color;
   run.count += count;
 }
 
 void SurfaceEngine::State::collect(const BlockContext& block) {
-  if (block.uniform) return collect_solid(block.bx, block.by, block.pixels[0]);
+  uint32_t count = pixels_inside(block.bx, 1, block.by);
+  if (block.uniform) return collect_solid(count, block.pixels[0]);
   settle_run();
-  uint32_t count = pixels_inside(block.bx, block.by);
   const uint32_t* pixels = block.pixels;
   uint32_t inside[kBlockPixels];
   if (count < kBlockPixels) {
@@ -228,18 +242,21 @@ void SurfaceEngine::State::collect(const BlockContext& block) {
   for (Collector& collector : collectors) collector.see_all(pixels, count, whole_few, whole_keys);
 }
 
-/// Blocks of one colour come in rows: each counts like the one before. False if this one does not.
-bool SurfaceEngine::State::repeat_block(uint32_t bx, uint32_t by, const uint32_t* top_left) {
-  if (!last.solid || !can_repeat || !kernels().is_solid(top_left, now.stride(), last.color)) return false;
-  ++last.repeats;
-  collect_solid(bx, by, last.color);
+/// Blocks of one colour come in rows: each counts like the one before. Returns how many from `bx` on do.
+uint32_t SurfaceEngine::State::repeat_blocks(uint32_t bx, uint32_t bx_end, uint32_t by) {
+  if (!last.solid || !can_repeat) return 0;
+  const uint32_t* top_left = now.row(by * kBlockSide) + bx * kBlockSide;
+  const uint32_t count = kernels().solid_blocks(top_left, now.stride(), last.color, bx_end - bx);
+  if (count == 0) return 0;
+  last.repeats += count;
+  collect_solid(pixels_inside(bx, count, by), last.color);
   if (!surfaces.empty())
-    for (Lane& lane : lanes) lane.store.put_again(bx, by);
+    for (Lane& lane : lanes) lane.store.put_again(bx, bx + count, by);
   if (block_bits != nullptr)
     for (size_t i = 0; i < lanes.size(); ++i)
-      block_bits->schemes[i][size_t{by} * block_bits->blocks_x + bx] =
-          static_cast<uint16_t>(lanes[i].last.payload_bits);
-  return true;
+      std::fill_n(block_bits->schemes[i].begin() + (ptrdiff_t{by} * block_bits->blocks_x + bx), count,
+                  static_cast<uint16_t>(lanes[i].last.payload_bits));
+  return count;
 }
 
 void SurfaceEngine::State::settle_repeats() {
@@ -263,9 +280,8 @@ bool SurfaceEngine::State::split_few(const uint32_t* pixels) {
 }
 
 void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTraits& format) {
-  const uint32_t* top_left = now.row(by * kBlockSide) + bx * kBlockSide;
-  if (repeat_block(bx, by, top_left)) return;
   settle_repeats();
+  const uint32_t* top_left = now.row(by * kBlockSide) + bx * kBlockSide;
   alignas(64) uint32_t pixels[kBlockPixels];
   Block block;
   BlockContext context{.block = block, .bx = bx, .by = by, .pixels = pixels};
@@ -309,8 +325,17 @@ void SurfaceEngine::State::advance() {
   const uint32_t begin = next_row;
   next_row = std::min(begin + options.tile_side / kBlockSide, now.blocks_y());
   if (!needs_whole_frame) take_rows(begin, next_row);  // they are at hand then
-  for_each_block_of_tiles(now.blocks_x(), begin, next_row, options.tile_side,
-                          [&](uint32_t bx, uint32_t by) { visit_block(bx, by, format); });
+  if (referred) {
+    if (begin == 0) prefetch_tiles(0), prefetch.step(UINT32_MAX);
+    prefetch_tiles(next_row);
+  }
+  for_each_row_in_tiles(now.blocks_x(), begin, next_row, options.tile_side,
+                        [&](uint32_t bx, uint32_t bx_end, uint32_t by) {
+                          if (referred)
+                            prefetch.step((bx_end - bx) * kBlockPixels / RowPrefetch::kLinePixels);
+                          while ((bx += repeat_blocks(bx, bx_end, by)) < bx_end)
+                            visit_block(bx++, by, format);
+                        });
   if (next_row == now.blocks_y()) end_frame();
 }
 

@@ -113,16 +113,21 @@ uint32_t SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& bloc
   return payload_bits;
 }
 
-void SurfaceStore::put_again(uint32_t bx, uint32_t by) {
+void SurfaceStore::put_again(uint32_t bx, uint32_t bx_end, uint32_t by) {
   constexpr size_t kLine = 64;  // slots are so many bytes, or a multiple
-  const uint64_t number = uint64_t{by} * blocks_x_ + bx;
   const uint16_t payload_bits = block_bits_[last_];
-  const size_t most_bytes = (std::max(payload_bits, block_bits_[number]) + 7u) / 8;
-  // Whole lines: what lies behind a block's payload is zero in either slot.
-  for (size_t at = 0; at < most_bytes; at += kLine)
-    std::memcpy(payload_ + number * slot_bytes_ + at, payload_ + last_ * slot_bytes_ + at, kLine);
-  block_bits_[number] = payload_bits;
-  put_csb(number);
+  const uint8_t* const from = payload_ + last_ * slot_bytes_;
+  const uint64_t first = uint64_t{by} * blocks_x_ + bx;
+  uint16_t* bits = block_bits_ + first;
+  uint8_t* slot = payload_ + first * slot_bytes_;
+  const size_t slot_bytes = slot_bytes_;
+  for (uint16_t* const end = bits + (bx_end - bx); bits != end; ++bits, slot += slot_bytes) {
+    const size_t most_bytes = (std::max(payload_bits, *bits) + 7u) / 8;
+    // Whole lines: what lies behind a block's payload is zero in either slot.
+    for (size_t at = 0; at < most_bytes; at += kLine) std::memcpy(slot + at, from + at, kLine);
+    *bits = payload_bits;
+  }
+  for (uint64_t number = first; number < first + (bx_end - bx); ++number) put_csb(number);
 }
 
 /// The CSB bits of the block put last, for block `number`.

@@ -17,8 +17,8 @@ class SurfaceStore {
                    const BlockEncoder& encoder, CompressedSurface& out);
   /// Returns the block's payload bits.
   uint32_t put(const BlockEncoder& encoder, const BlockContext& block);
-  /// The block put last, at another place.
-  void put_again(uint32_t bx, uint32_t by);
+  /// The block put last, at the places of blocks `bx` to `bx_end` of row `by`.
+  void put_again(uint32_t bx, uint32_t bx_end, uint32_t by);
 
  private:
   static constexpr uint32_t kMaxCsbBytes = 32;

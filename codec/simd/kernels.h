@@ -50,8 +50,8 @@ struct Kernels {
   /// `keys` unless null. True if all 64 pixels are equal; the keys are not filled then.
   bool (*load_traversal)(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, BlockKeys* keys);
 
-  /// True if all 64 pixels of an 8×8 block are `color`.
-  bool (*is_solid)(const uint32_t* top_left, uint32_t stride, uint32_t color);
+  /// Of `most` 8×8 blocks side by side, how many, from the first on, are all `color`.
+  uint32_t (*solid_blocks)(const uint32_t* top_left, uint32_t stride, uint32_t color, uint32_t most);
 
   /// indices[i] = the table's value of pixels[i], kNotInCcd if it has none; widths[s] = the bit width of the
   /// largest index of sub-block s, kRawWidth if one of its pixels has none. For collision-free tables.

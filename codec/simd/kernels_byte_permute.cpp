@@ -9,10 +9,10 @@
 #endif
 #include <immintrin.h>
 
-#define TILEPRESS_VBMI                                                                                      \
-  __attribute__((                                                                                           \
-      target("avx512f,avx512bw,avx512dq,avx512vl,avx512cd,avx512vbmi,avx512vbmi2,avx512vpopcntdq,bmi,bmi2," \
-             "popcnt")))
+#define TILEPRESS_VBMI                                                                                  \
+  __attribute__((                                                                                       \
+      target("avx512f,avx512bw,avx512dq,avx512vl,avx512cd,avx512vbmi,avx512vbmi2,avx512vpopcntdq,gfni," \
+             "bmi,bmi2,popcnt")))
 #define TILEPRESS_VBMI_INLINE TILEPRESS_VBMI __attribute__((always_inline)) inline
 
 namespace tilepress {
@@ -43,6 +43,17 @@ struct BytesOf {
   }
 };
 
+/// BlockKeys::kMasks as bit matrices: byte 7 - i has the mask of bit i of the result.
+struct BucketMatrices {
+  uint64_t of[2][4];
+  constexpr BucketMatrices() : of() {
+    for (uint32_t which = 0; which < 2; ++which)
+      for (uint32_t c = 0; c < 4; ++c)
+        for (uint32_t bit = 0; bit < 7; ++bit)
+          of[which][c] |= uint64_t{BlockKeys::kMasks[which][bit] >> 8 * c & 0xFF} << 8 * (7 - bit);
+  }
+};
+
 TILEPRESS_VBMI bool load_traversal(const uint32_t* top_left, uint32_t stride, uint32_t* pixels,
                                    BlockKeys* keys) {
   // Pairs of two rows, interleaved: sub-blocks.
@@ -56,22 +67,38 @@ TILEPRESS_VBMI bool load_traversal(const uint32_t* top_left, uint32_t stride, ui
   }
   if (_mm512_test_epi64_mask(difference, difference) == 0) return true;
   if (keys == nullptr) return false;
-  static constexpr BytesOf k01(0, 1), k23(2, 3), k3(3, 3);
-  __m512i a, b;
-  take_bytes(words, _mm512_load_si512(k01.at), a, b);
-  _mm512_store_si512(keys->bytes[0], a);
-  _mm512_store_si512(keys->bytes[1], b);
-  take_bytes(words, _mm512_load_si512(k23.at), a, b);
-  _mm512_store_si512(keys->bytes[2], a);
-  _mm512_store_si512(keys->bytes[3], b);
+  static constexpr BytesOf k01(0, 1), k23(2, 3);
+  __m512i bytes[4];
+  take_bytes(words, _mm512_load_si512(k01.at), bytes[0], bytes[1]);
+  take_bytes(words, _mm512_load_si512(k23.at), bytes[2], bytes[3]);
+  for (uint32_t c = 0; c < 4; ++c) _mm512_store_si512(keys->bytes[c], bytes[c]);
+  static constexpr BucketMatrices kMatrices;
   for (uint32_t which = 0; which < 2; ++which) {
-    const __m512i multiplier = _mm512_set1_epi32(static_cast<int>(BlockKeys::kMultipliers[which]));
-    __m512i products[4];
-    for (uint32_t i = 0; i < 4; ++i) products[i] = _mm512_mullo_epi32(words[i], multiplier);
-    take_bytes(products, _mm512_load_si512(k3.at), a, b);
-    _mm512_store_si512(keys->buckets[which], a);
+    __m512i parts[4];
+    for (uint32_t c = 0; c < 4; ++c) {
+      const __m512i matrix = _mm512_set1_epi64(static_cast<long long>(kMatrices.of[which][c]));
+      parts[c] = _mm512_gf2p8affine_epi64_epi8(bytes[c], matrix, 0);
+    }
+    const __m512i three = _mm512_ternarylogic_epi64(parts[0], parts[1], parts[2], 0x96);  // exclusive or
+    _mm512_store_si512(keys->buckets[which], _mm512_xor_si512(three, parts[3]));
   }
   return false;
+}
+
+// Two blocks at a time.
+TILEPRESS_VBMI uint32_t solid_blocks(const uint32_t* top_left, uint32_t stride, uint32_t color,
+                                     uint32_t most) {
+  const __m512i wanted = _mm512_set1_epi32(static_cast<int>(color));
+  for (uint32_t n = 0; n < most; n += 2, top_left += 16) {
+    const auto inside = static_cast<__mmask16>(n + 1 < most ? 0xFFFF : 0x00FF);
+    __m512i difference = _mm512_setzero_si512();
+    for (uint32_t y = 0; y < 8; ++y)
+      difference = _mm512_ternarylogic_epi64(
+          difference, _mm512_maskz_loadu_epi32(inside, top_left + size_t{y} * stride), wanted, 0xF6);
+    const __mmask16 differs = _mm512_mask_test_epi32_mask(inside, difference, difference);
+    if (differs != 0) return n + ((differs & 0xFF) == 0);
+  }
+  return most;
 }
 
 /// Zero bytes where the colour in `slots` is that of the pixel.
@@ -345,13 +372,15 @@ TILEPRESS_VBMI WrittenBlock write_sub_blocks(const uint32_t* pixels, const uint1
 const Kernels* byte_permute_kernels(const Kernels& base) {
   __builtin_cpu_init();
   if (!__builtin_cpu_supports("avx512vbmi") || !__builtin_cpu_supports("avx512vbmi2") ||
-      !__builtin_cpu_supports("avx512vpopcntdq") || !__builtin_cpu_supports("bmi2"))
+      !__builtin_cpu_supports("avx512vpopcntdq") || !__builtin_cpu_supports("bmi2") ||
+      !__builtin_cpu_supports("gfni"))
     return nullptr;
   static const Kernels kSet = [&] {
     Kernels set = base;
     set.name = "avx512vbmi";
     set.byte_permutes = true;
     set.load_traversal = load_traversal;
+    set.solid_blocks = solid_blocks;
     set.run_begins = run_begins;
     set.compact = compact;
     set.find_slots = find_slots;

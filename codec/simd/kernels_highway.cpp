@@ -61,14 +61,17 @@ bool LoadTraversal(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint3
   return uniform;
 }
 
-bool IsSolid(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t color) {
+uint32_t SolidBlocks(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t color, uint32_t most) {
   const hn::CappedTag<uint32_t, 8> d;
   const auto wanted = hn::Set(d, color);
-  auto difference = hn::Zero(d);
-  for (uint32_t y = 0; y < 8; ++y)
-    for (size_t x = 0; x < 8; x += hn::Lanes(d))
-      difference = hn::Or(difference, hn::Xor(hn::LoadU(d, top_left + size_t{y} * stride + x), wanted));
-  return hn::AllTrue(d, hn::Eq(difference, hn::Zero(d)));
+  for (uint32_t n = 0; n < most; ++n, top_left += 8) {
+    auto difference = hn::Zero(d);
+    for (uint32_t y = 0; y < 8; ++y)
+      for (size_t x = 0; x < 8; x += hn::Lanes(d))
+        difference = hn::Or(difference, hn::Xor(hn::LoadU(d, top_left + size_t{y} * stride + x), wanted));
+    if (!hn::AllTrue(d, hn::Eq(difference, hn::Zero(d)))) return n;
+  }
+  return most;
 }
 
 /// Takes the indices of a block, some lanes at a time in order, and knows the widths of its sub-blocks.
@@ -377,7 +380,7 @@ const Kernels& Set(const char* name) {
       .name = name,
       .byte_permutes = false,
       .load_traversal = LoadTraversal,
-      .is_solid = IsSolid,
+      .solid_blocks = SolidBlocks,
       .find = Find,
       .find_slots = find_slots_plainly,
       .count_slots = count_slots_plainly,

@@ -23,11 +23,12 @@ bool load_traversal(const uint32_t* top_left, uint32_t stride, uint32_t* pixels,
   return uniform;
 }
 
-bool is_solid(const uint32_t* top_left, uint32_t stride, uint32_t color) {
-  for (uint32_t y = 0; y < kBlockSide; ++y)
-    for (uint32_t x = 0; x < kBlockSide; ++x)
-      if (top_left[y * stride + x] != color) return false;
-  return true;
+uint32_t solid_blocks(const uint32_t* top_left, uint32_t stride, uint32_t color, uint32_t most) {
+  for (uint32_t n = 0; n < most; ++n, top_left += kBlockSide)
+    for (uint32_t y = 0; y < kBlockSide; ++y)
+      for (uint32_t x = 0; x < kBlockSide; ++x)
+        if (top_left[y * stride + x] != color) return n;
+  return most;
 }
 
 void fill_widths(const uint16_t* indices, uint8_t* widths) {
@@ -249,7 +250,7 @@ const Kernels& scalar_kernels() {
       .name = "scalar",
       .byte_permutes = false,
       .load_traversal = load_traversal,
-      .is_solid = is_solid,
+      .solid_blocks = solid_blocks,
       .find = find,
       .find_slots = find_slots_plainly,
       .count_slots = count_slots_plainly,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 
 #include "tilepress/block.h"
@@ -12,11 +13,18 @@ namespace tilepress {
 /// each.
 struct BlockKeys {
   alignas(64) uint8_t bytes[4][kBlockPixels];    ///< byte c of pixel i
-  alignas(64) uint8_t buckets[2][kBlockPixels];  ///< the top bit is of no meaning
+  alignas(64) uint8_t buckets[2][kBlockPixels];  ///< below 128
 
-  static constexpr uint32_t kMultipliers[2] = {0x9E3779B1u, 0x85EBCA77u};
-  static constexpr uint8_t bucket(uint32_t color, uint32_t which) {
-    return static_cast<uint8_t>(color * kMultipliers[which] >> 24);
+  /// Bit i of a bucket is the parity of the colour's bits under mask i: linear, so that byte c of 64 pixels
+  /// gives its part of 64 buckets by one product of bit matrices. Of random masks the best out of many: grays
+  /// and shades of any channels fill all buckets, and no two of them have both in common.
+  static constexpr uint32_t kMasks[2][7] = {
+      {0xEB6D8D01, 0xE3A0DF1B, 0xAD1FCCFA, 0xE1D088C6, 0xFF07A961, 0xD0DF7527, 0xDB89973A},
+      {0x09ADE6F2, 0xB3BCEAE9, 0xAA4CAED1, 0xAB6CB08B, 0xD6E5CE85, 0xD83D9B39, 0xEF979572}};
+  static uint8_t bucket(uint32_t color, uint32_t which) {
+    uint8_t bucket = 0;
+    for (uint32_t c = 0; c < 4; ++c) bucket ^= kParts.of[which][c][color >> 8 * c & 0xFF];
+    return bucket;
   }
   void fill(const uint32_t* pixels) {
     for (uint32_t i = 0; i < kBlockPixels; ++i) {
@@ -24,7 +32,25 @@ struct BlockKeys {
       for (uint32_t which = 0; which < 2; ++which) buckets[which][i] = bucket(pixels[i], which);
     }
   }
+
+ private:
+  /// What each value of byte c adds to a bucket.
+  struct Parts {
+    uint8_t of[2][4][256];
+    constexpr Parts() : of() {
+      for (uint32_t which = 0; which < 2; ++which)
+        for (uint32_t c = 0; c < 4; ++c)
+          for (uint32_t value = 0; value < 256; ++value)
+            for (uint32_t bit = 0; bit < 7; ++bit) {
+              const bool odd = std::popcount(kMasks[which][bit] & value << 8 * c) % 2 == 1;
+              of[which][c][value] = static_cast<uint8_t>(of[which][c][value] | odd << bit);
+            }
+    }
+  };
+  static const Parts kParts;
 };
+
+inline constexpr BlockKeys::Parts BlockKeys::kParts;
 
 /// A cuckoo hash table: a colour lies in one of two buckets, which hold its slot number. A colour that finds
 /// no bucket is stashed, and compared with every pixel.
@@ -51,7 +77,7 @@ class SlotTable {
 
  private:
   uint8_t& bucket_of(uint32_t color, uint32_t which) {
-    return buckets[which][BlockKeys::bucket(color, which) % kBuckets];
+    return buckets[which][BlockKeys::bucket(color, which)];
   }
   void place(uint32_t slot);
 };

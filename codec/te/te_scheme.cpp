@@ -44,7 +44,7 @@ class TeEncoder final : public BlockEncoder {
     constexpr uint32_t kTileSide = kTileBlocks * kBlockSide;
     for (uint32_t y = 0; y < plane.blocks_y() * kBlockSide; ++y)
       for (uint32_t tile = 0; tile < tiles_x_; ++tile) {
-        const uint32_t x = tile * kTileSide, width = std::min(kTileSide, plane.stride() - x);
+        const uint32_t x = tile * kTileSide, width = std::min(kTileSide, plane.padded_width() - x);
         uint64_t& crc = now_[size_t{y / kTileSide} * tiles_x_ + tile];
         crc = crc64({plane.row(y) + x, width}, pixel_bits_ / 8, crc);
       }

@@ -65,6 +65,10 @@ Trial any_trial(const std::vector<PixelFormat>& formats, int largest_width, int 
   Trial trial;
   trial.width = *rc::gen::inRange(1, largest_width + 1);
   trial.height = *rc::gen::inRange(1, largest_height + 1);
+  if (*rc::gen::arbitrary<bool>()) {  // whole blocks
+    trial.width = (trial.width + 7) / 8 * 8;
+    trial.height = (trial.height + 7) / 8 * 8;
+  }
   trial.tile_side = *rc::gen::element(8, 16, 32, 64, 24);
   trial.burst_bits = *rc::gen::element(128, 256, 64, 512, 2048, 16);
   trial.format = *rc::gen::elementOf(formats);
@@ -109,6 +113,10 @@ class Comparison {
       : trial_(trial), engine_(trial.schemes, model(trial, false)), meter_(trial.format, trial.tile_side) {
     for (const SchemeSpec& scheme : trial.schemes)
       expected_.emplace_back(scheme, trial.format, trial.tile_side, trial.burst_bits);
+    ModelOptions options = model(trial, false);
+    options.frame_metrics = false;
+    for (size_t i = 0; i < trial.schemes.size(); ++i)
+      alone_.emplace_back(std::vector<SchemeSpec>{trial.schemes[i]}, options);
   }
   /// What differs in the next frame; empty if nothing does.
   std::string next(const Picture& picture) {
@@ -124,6 +132,11 @@ class Comparison {
       exact(out, "csb_bits" + at, scheme.csb_bits, figures.csb_bits);
       exact(out, "palette_bits" + at, scheme.palette_bits, figures.palette_bits);
       exact(out, "extra_bits" + at, scheme.extra_bits, figures.extra_bits);
+      FrameStatistics alone;
+      process(alone_[i], trial_, picture, alone);
+      exact(out, "payload_bits alone" + at, alone.schemes[0].payload_bits, figures.payload_bits);
+      exact(out, "bursts alone" + at, alone.schemes[0].bursts, figures.bursts);
+      exact(out, "extra_bits alone" + at, alone.schemes[0].extra_bits, figures.extra_bits);
     }
     const reference::Metrics metrics = meter_.frame(picture);
     exact(out, "unique_colors", actual.metrics.unique_colors, metrics.unique_colors);
@@ -149,6 +162,7 @@ class Comparison {
   }
   const Trial& trial_;
   SurfaceEngine engine_;
+  std::vector<SurfaceEngine> alone_;  ///< a scheme each, and no metrics: no copy of a frame may be needed
   std::vector<reference::Scheme> expected_;
   reference::Meter meter_;
 };

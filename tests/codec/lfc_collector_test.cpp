@@ -160,6 +160,12 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
       for (uint32_t i = 4 * s; i < 4 * s + 4; ++i)
         few_indices[i] = few_widths[s] == kRawWidth ? kNotInCcd : indices[i] & ((1u << few_widths[s]) - 1);
     }
+    constexpr uint32_t kRow = 8 * 9;  // nine blocks side by side
+    uint32_t row[8 * kRow];
+    std::ranges::fill(row, pixels[0]);
+    if (round % 4 != 0) row[dice.below(8 * kRow)] = dice.next();
+    const uint32_t most = 1 + dice.below(9);
+    const uint32_t solid = kernels().solid_blocks(row, kRow, row[0], most);
     const uint32_t mark_bits = 3 + dice.below(5);
     const WrittenBlock block =
         kernels().write_sub_blocks(pixels.data(), few_indices, few_widths, mark_bits, written);
@@ -206,8 +212,7 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
       ASSERT_EQ(kernels().count_up_to(widths, limit), narrow);
       for (uint32_t sub = 0; sub < 16; ++sub)
         ASSERT_TRUE(widths[sub] == kRawWidth || words[sub] == other_words[sub]);
-      ASSERT_EQ(kernels().is_solid(pixels.data(), 8, pixels[0]),
-                std::count(pixels.begin(), pixels.end(), pixels[0]) == 64);
+      ASSERT_EQ(kernels().solid_blocks(row, kRow, row[0], most), solid);
     }
   }
   force_simd_target(target);

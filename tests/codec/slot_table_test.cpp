@@ -22,8 +22,7 @@ std::array<uint32_t, 64> crowded_colors() {
   std::array<uint32_t, 64> colors;
   uint32_t found = 0;
   for (uint32_t color = 0; found < 64; ++color)
-    if (BlockKeys::bucket(color, 0) % 128 == 5 && BlockKeys::bucket(color, 1) % 128 < 3)
-      colors[found++] = color;
+    if (BlockKeys::bucket(color, 0) == 5 && BlockKeys::bucket(color, 1) < 3) colors[found++] = color;
   return colors;
 }
 

@@ -212,6 +212,39 @@ TEST(Engine, ABlockTakesInRasWhatItTakesWhicheverFramesCameBefore) {
   }
 }
 
+TEST(Engine, WithoutMetricsAFrameCountsWhereverItLies) {
+  // Whole blocks in RGBA order are read where they lie; other order, rows that are not words, or upside down,
+  // from a copy. The memory of a frame is gone when the next one comes.
+  std::string error;
+  const std::vector<SchemeSpec> specs = {*parse_scheme("vdcp", error), *parse_scheme("huffdcp", error),
+                                         *parse_scheme("te", error)};
+  ModelOptions options;
+  options.frame_metrics = false;
+  SurfaceEngine tight(specs, options), padded(specs, options), other_order(specs, options),
+      upside_down(specs, options), odd_rows(specs, options), mixed(specs, options);
+  for (uint32_t frame = 0; frame < 5; ++frame) {
+    const Picture picture = patterns::draw(patterns::kRectangles, 104, 72, PixelFormat::kRgba8, frame);
+    const auto statistics_of = [&](SurfaceEngine& engine, ByteOrder order, bool bottom_up, uint32_t padding) {
+      const patterns::MemorySurface memory(picture, PixelFormat::kRgba8, order, bottom_up, padding);
+      FrameStatistics statistics;
+      engine.process(memory.view(), statistics);
+      return statistics;
+    };
+    const FrameStatistics expected = statistics_of(upside_down, ByteOrder::kRgba, true, 0);
+    const FrameStatistics found[] = {statistics_of(tight, ByteOrder::kRgba, false, 0),
+                                     statistics_of(padded, ByteOrder::kRgba, false, 64),
+                                     statistics_of(other_order, ByteOrder::kBgra, false, 0),
+                                     statistics_of(odd_rows, ByteOrder::kRgba, false, 3),
+                                     statistics_of(mixed, ByteOrder::kRgba, frame % 2 == 0, 0)};
+    for (const FrameStatistics& statistics : found)
+      for (size_t i = 0; i < specs.size(); ++i) {
+        EXPECT_EQ(statistics.schemes[i].payload_bits, expected.schemes[i].payload_bits);
+        EXPECT_EQ(statistics.schemes[i].bursts, expected.schemes[i].bursts);
+        EXPECT_EQ(statistics.schemes[i].extra_bits, expected.schemes[i].extra_bits);
+      }
+  }
+}
+
 TEST(Engine, InStepsItGivesWhatItGivesAtOnce) {
   // The palette wants the whole frame before its first block.
   for (const char* schemes : {"vdcp", "palette"}) {
