@@ -1,6 +1,7 @@
 // Row prefetch: a frame's rows are brought near in the order in which they lie, before blocks read them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "tilepress/plane.h"
@@ -16,27 +17,35 @@ class RowPrefetch {
   /// Rows of more bytes than this would push each other out of the cache.
   static constexpr uint64_t kMostBytes = 512 << 10;
 
-  /// The next are rows `begin` to `end` of `plane`, which must outlive the steps.
+  /// The next are rows `begin` to `end` of `plane`, which must stay as it is until the last step.
   void aim(const PixelPlane& plane, uint32_t begin, uint32_t end) {
-    plane_ = &plane;
+    row_ = plane.row(begin);
+    stride_ = plane.stride();
+    width_ = plane.width();
     x_ = 0;
-    y_ = begin;
-    end_ = end;
+    rows_ = end - begin;
   }
   /// Asks for the next `lines` lines, if there are so many left.
   void step(uint32_t lines) {
-    for (; lines > 0 && y_ < end_; --lines) {
-      __builtin_prefetch(plane_->row(y_) + x_, 0, 2);
-      x_ += kLinePixels;
-      if (x_ < plane_->width()) continue;
+    while (lines > 0 && rows_ > 0) {
+      for (; lines > 0 && x_ < width_; --lines, x_ += kLinePixels) __builtin_prefetch(row_ + x_, 0, 2);
+      if (x_ < width_) return;
       x_ = 0;
-      ++y_;
+      row_ += stride_;
+      --rows_;
     }
+  }
+  /// Asks for blocks `bx` to `bx_end` of row `by`, which step() asked for, once more: they are next.
+  static void bring_nearer(const PixelPlane& plane, uint32_t bx, uint32_t bx_end, uint32_t by) {
+    for (uint32_t y = by * kBlockSide; y < (by + 1) * kBlockSide; ++y)
+      for (uint32_t x = bx * kBlockSide; x < bx_end * kBlockSide; x += kLinePixels)
+        __builtin_prefetch(plane.row(y) + x, 0, 3);
   }
 
  private:
-  const PixelPlane* plane_ = nullptr;
-  uint32_t x_ = 0, y_ = 0, end_ = 0;  ///< the next line; and the row where to stop
+  const uint32_t* row_ = nullptr;
+  size_t stride_ = 0;
+  uint32_t width_ = 0, x_ = 0, rows_ = 0;  ///< pixels in a row, and where the next line is; rows left
 };
 
 }  // namespace tilepress

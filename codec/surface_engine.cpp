@@ -6,7 +6,6 @@
 #include <bit>
 #include <cassert>
 #include <chrono>
-#include <deque>
 #include <optional>
 #include <utility>
 
@@ -28,6 +27,8 @@ struct Lane {
   std::unique_ptr<BlockDecoder> decoder;  ///< only with verify
   SchemeNeeds needs;
   Collector* collector = nullptr;
+  const uint16_t* ccd_indices = nullptr;  ///< of the block being visited, see BlockContext
+  const uint8_t* ccd_widths = nullptr;
   uint32_t csb_bits = 0;
   SurfaceStore store;
   SchemeStatistics last;  ///< what the block measured last added
@@ -53,7 +54,8 @@ class StepTime {
 struct SurfaceEngine::State {
   std::vector<SchemeSpec> specs;
   ModelOptions options;
-  std::deque<Collector> collectors;  ///< with frame_metrics the first is the default, theirs
+  /// With frame_metrics the first is the default, theirs.
+  std::vector<std::unique_ptr<Collector>> collectors;
   std::vector<Lane> lanes;
   PixelPlane now;
   bool referred = false;  ///< now is the frame where it lies, and no copy
@@ -81,8 +83,7 @@ struct SurfaceEngine::State {
   } run;
   FewColors few;  ///< of the block being visited
   bool is_few = false;
-  BlockKeys keys;                         ///< of the block being visited, unless of one colour
-  bool wants_keys = false;                ///< a collector makes use of them
+  bool loads_slots = false;               ///< the first collector loads blocks, and looks them up at once
   bool wants_few = false;                 ///< likewise, or the meter does
   bool meter_looks = false;               ///< the meter has to see the pixels, and no collector tells it
   uint32_t few_score = 0;                 ///< how well it went lately to look for few colours
@@ -98,6 +99,7 @@ struct SurfaceEngine::State {
   void begin_frame();
   void take_rows(uint32_t begin, uint32_t end);
   void prefetch_tiles(uint32_t begin);
+  void prefetch_beside(uint32_t bx, uint32_t bx_end, uint32_t by);
   void advance();
   void visit_block(uint32_t bx, uint32_t by, const FormatTraits& format);
   uint32_t repeat_blocks(uint32_t bx, uint32_t bx_end, uint32_t by);
@@ -116,9 +118,9 @@ struct SurfaceEngine::State {
 };
 
 Collector& SurfaceEngine::State::collector_for(const FvcConfig& config, const FormatTraits& format) {
-  for (Collector& collector : collectors)
-    if (collector.fvc().config() == config) return collector;
-  return collectors.emplace_back(config, format);
+  for (const auto& collector : collectors)
+    if (collector->fvc().config() == config) return *collector;
+  return *collectors.emplace_back(std::make_unique<Collector>(config, format));
 }
 
 void SurfaceEngine::State::open(const FormatTraits& format) {
@@ -146,7 +148,7 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
     lanes.push_back(std::move(lane));
   }
   compares_frames = options.frame_metrics || needs_ras || needs_ras_ycocg;
-  wants_keys = kernels().byte_permutes && !collectors.empty();
+  loads_slots = kernels().byte_permutes && !collectors.empty();
 }
 
 void SurfaceEngine::State::begin_frame() {
@@ -161,14 +163,14 @@ void SurfaceEngine::State::begin_frame() {
   changed = 0;
   ras_memo.begin_frame(now.blocks(), has_before, needs_ras, needs_ras_ycocg);
   if (needs_whole_frame) take_rows(0, now.blocks_y());
-  for (Collector& collector : collectors) collector.begin_frame(ordinal);
+  for (const auto& collector : collectors) collector->begin_frame(ordinal);
   last.solid = false;
   meter_looks = false;
   if (options.frame_metrics) {
     meter.begin_frame(size_t{now.width()} * now.height());
-    meter_looks = meter.counting() && !collectors.front().listen(&meter);
+    meter_looks = meter.counting() && !collectors.front()->listen(&meter);
   }
-  wants_few = meter_looks || (!wants_keys && !collectors.empty());
+  wants_few = meter_looks || (!loads_slots && !collectors.empty());
   out->schemes.assign(lanes.size(), SchemeStatistics{});
   if (block_bits != nullptr) {
     block_bits->blocks_x = now.blocks_x();
@@ -180,6 +182,8 @@ void SurfaceEngine::State::begin_frame() {
   for (size_t i = 0; i < lanes.size(); ++i) {
     Lane& lane = lanes[i];
     const Ccd* ccd = lane.collector != nullptr ? lane.collector->ccd() : nullptr;
+    lane.ccd_indices = ccd != nullptr ? lane.collector->indices() : nullptr;
+    lane.ccd_widths = ccd != nullptr ? lane.collector->widths() : nullptr;
     const FrameContext context{.plane = now, .ordinal = ordinal, .ccd = ccd};
     lane.encoder->begin_frame(context);
     if (!surfaces.empty()) lane.store.begin_frame(specs[i], options, context, *lane.encoder, surfaces[i]);
@@ -204,6 +208,12 @@ void SurfaceEngine::State::prefetch_tiles(uint32_t begin) {
   prefetch.aim(now, begin * kBlockSide, end * kBlockSide);
 }
 
+/// What is asked for while blocks `bx` to `bx_end` of row `by` are visited.
+void SurfaceEngine::State::prefetch_beside(uint32_t bx, uint32_t bx_end, uint32_t by) {
+  prefetch.step((bx_end - bx) * kBlockPixels / RowPrefetch::kLinePixels);
+  RowPrefetch::bring_nearer(now, bx_end, std::min(2 * bx_end - bx, now.blocks_x()), by);
+}
+
 /// Pixels of blocks side by side that lie inside the surface: padding never enters the FVC.
 uint32_t SurfaceEngine::State::pixels_inside(uint32_t bx, uint32_t blocks, uint32_t by) const {
   return std::min(blocks * kBlockSide, now.width() - bx * kBlockSide) *
@@ -212,7 +222,7 @@ uint32_t SurfaceEngine::State::pixels_inside(uint32_t bx, uint32_t blocks, uint3
 
 void SurfaceEngine::State::settle_run() {
   if (run.count == 0) return;
-  for (Collector& collector : collectors) collector.see_run(run.color, run.count);
+  for (const auto& collector : collectors) collector->see_run(run.color, run.count);
   if (meter_looks) meter.see_run(run.color, run.count);
   run.count = 0;
 }
@@ -238,13 +248,12 @@ void SurfaceEngine::State::collect(const BlockContext& block) {
   }
   const FewColors* whole_few = is_few && count == kBlockPixels ? &few : nullptr;
   if (meter_looks) whole_few != nullptr ? meter.see_block(few) : meter.see_all(pixels, count);
-  const BlockKeys* whole_keys = wants_keys && count == kBlockPixels ? &keys : nullptr;
-  for (Collector& collector : collectors) collector.see_all(pixels, count, whole_few, whole_keys);
+  for (const auto& collector : collectors) collector->see_all(pixels, count, whole_few);
 }
 
-/// Blocks of one colour come in rows: each counts like the one before. Returns how many from `bx` on do.
+/// Blocks of one colour, as the last was, come in rows: each counts like that one. Returns how many from
+/// `bx` on do.
 uint32_t SurfaceEngine::State::repeat_blocks(uint32_t bx, uint32_t bx_end, uint32_t by) {
-  if (!last.solid || !can_repeat) return 0;
   const uint32_t* top_left = now.row(by * kBlockSide) + bx * kBlockSide;
   const uint32_t count = kernels().solid_blocks(top_left, now.stride(), last.color, bx_end - bx);
   if (count == 0) return 0;
@@ -269,8 +278,8 @@ void SurfaceEngine::State::settle_repeats() {
 /// where blocks have many colours few of them are looked at. What comes out does not depend on it.
 bool SurfaceEngine::State::split_few(const uint32_t* pixels) {
   constexpr uint32_t kBest = 12, kFailure = 4, kPause = 7;
-  if (!wants_few || until_few > 0) {
-    until_few -= until_few > 0;
+  if (until_few > 0) {
+    --until_few;
     return false;
   }
   const bool found = kernels().split(pixels, few);
@@ -285,22 +294,25 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
   alignas(64) uint32_t pixels[kBlockPixels];
   Block block;
   BlockContext context{.block = block, .bx = bx, .by = by, .pixels = pixels};
-  context.uniform = kernels().load_traversal(top_left, now.stride(), pixels, wants_keys ? &keys : nullptr);
-  is_few = !context.uniform && split_few(pixels);
+  if (loads_slots) {
+    settle_run();  // so that the members are those the block meets
+    context.uniform = collectors.front()->load(top_left, now.stride(), pixels);
+  } else {
+    context.uniform = kernels().load_traversal(top_left, now.stride(), pixels);
+  }
+  is_few = wants_few && !context.uniform && split_few(pixels);
   last.solid = context.uniform;
   last.color = pixels[0];
   if (needs_raster || (needs_raster_to_encode && !surfaces.empty())) now.load_block(bx, by, block);
-  for (Collector& collector : collectors) {
-    if (collector.wanted && collector.ccd() != nullptr)
-      collector.look_up(pixels, context.uniform, is_few ? &few : nullptr, wants_keys ? &keys : nullptr);
-  }
+  for (size_t i = loads_slots ? 1 : 0; i < collectors.size(); ++i)
+    if (collectors[i]->wanted && collectors[i]->ccd() != nullptr)
+      collectors[i]->look_up(pixels, context.uniform, is_few ? &few : nullptr);
   if (needs_ras) context.ras_bits = ras_bits(context, top_left, format, false);
   if (needs_ras_ycocg) context.ras_ycocg_bits = ras_bits(context, top_left, format, true);
   for (size_t i = 0; i < lanes.size(); ++i) {
     Lane& lane = lanes[i];
-    const bool look_up = lane.collector != nullptr && lane.collector->ccd() != nullptr;
-    context.ccd_indices = look_up ? lane.collector->indices() : nullptr;
-    context.ccd_widths = look_up ? lane.collector->widths() : nullptr;
+    context.ccd_indices = lane.ccd_indices;
+    context.ccd_widths = lane.ccd_widths;
     const uint32_t payload_bits =
         surfaces.empty() ? lane.encoder->measure(context) : lane.store.put(*lane.encoder, context);
     if (context.uniform) lane.last = {};
@@ -331,10 +343,11 @@ void SurfaceEngine::State::advance() {
   }
   for_each_row_in_tiles(now.blocks_x(), begin, next_row, options.tile_side,
                         [&](uint32_t bx, uint32_t bx_end, uint32_t by) {
-                          if (referred)
-                            prefetch.step((bx_end - bx) * kBlockPixels / RowPrefetch::kLinePixels);
-                          while ((bx += repeat_blocks(bx, bx_end, by)) < bx_end)
-                            visit_block(bx++, by, format);
+                          if (referred) prefetch_beside(bx, bx_end, by);
+                          while (bx < bx_end) {
+                            if (last.solid && can_repeat) bx += repeat_blocks(bx, bx_end, by);
+                            if (bx < bx_end) visit_block(bx++, by, format);
+                          }
                         });
   if (next_row == now.blocks_y()) end_frame();
 }
@@ -342,7 +355,7 @@ void SurfaceEngine::State::advance() {
 void SurfaceEngine::State::end_frame() {
   settle_repeats();
   settle_run();
-  for (Collector& collector : collectors) collector.end_frame();
+  for (const auto& collector : collectors) collector->end_frame();
   const uint64_t blocks = now.blocks();
   for (size_t i = 0; i < lanes.size(); ++i) {
     SchemeStatistics& scheme = out->schemes[i];
@@ -353,9 +366,9 @@ void SurfaceEngine::State::end_frame() {
   out->metrics = FrameMetrics{};
   if (options.frame_metrics)
     out->metrics =
-        meter.measure(now, has_before ? std::optional(changed) : std::nullopt, collectors.front().fvc());
-  for (Collector& collector : collectors)
-    if (collector.wanted) collector.build_ccd();
+        meter.measure(now, has_before ? std::optional(changed) : std::nullopt, collectors.front()->fvc());
+  for (const auto& collector : collectors)
+    if (collector->wanted) collector->build_ccd();
   has_before = true;
   ++ordinal;
 }
@@ -382,8 +395,8 @@ std::vector<uint64_t> SurfaceEngine::history(uint64_t ordinal, PixelFormat forma
   std::vector<uint64_t> frames;
   if (ordinal == 0) return frames;
   frames.push_back(ordinal - 1);
-  for (const Collector& collector : state_->collectors)
-    frames.push_back((ordinal - 1) / collector.fvc().config().period * collector.fvc().config().period);
+  for (const auto& collector : state_->collectors)
+    frames.push_back((ordinal - 1) / collector->fvc().config().period * collector->fvc().config().period);
   for (const Lane& lane : state_->lanes)
     if (lane.needs.first_frame) frames.push_back(0);
   std::sort(frames.begin(), frames.end());

@@ -62,9 +62,8 @@ bool CcdLookup::place_all(const Ccd& ccd, bool probing) {
   return true;
 }
 
-void CcdLookup::find_block(const uint32_t* pixels, const BlockKeys* keys, uint16_t* indices,
-                           uint8_t* widths) const {
-  if (keys != nullptr && has_slots_) return kernels().index_slots(*keys, slots_, indices, widths);
+void CcdLookup::find_block(const uint32_t* pixels, uint16_t* indices, uint8_t* widths) const {
+  if (has_slots_) return kernels().index_slots(pixels, slots_, indices, widths);
   if (collision_free_) return kernels().find(pixels, table_, indices, widths);
   uint32_t last_color = pixels[0];
   uint16_t last_index = find(last_color);

@@ -49,11 +49,13 @@ class CcdLookup {
       if (table_.values[at] == kNotInCcd || table_.colors[at] == color)
         return static_cast<uint16_t>(table_.values[at]);
   }
-  /// A block of 64 pixels in traversal order, `keys` null or of the same: its indices, and the widths of its
-  /// sub-blocks; see BlockContext.
-  void find_block(const uint32_t* pixels, const BlockKeys* keys, uint16_t* indices, uint8_t* widths) const;
+  /// A block of 64 pixels in traversal order: its indices, and the widths of its sub-blocks; see
+  /// BlockContext.
+  void find_block(const uint32_t* pixels, uint16_t* indices, uint8_t* widths) const;
   /// The same for a block of few colours.
   void find_block(const uint32_t* pixels, const FewColors& few, uint16_t* indices, uint8_t* widths) const;
+  /// The dictionary's colours by index, for kernels; null if it is not kept so.
+  const SlotTable* slots() const { return has_slots_ ? &slots_ : nullptr; }
 
  private:
   bool place_all(const Ccd& ccd, bool probing);

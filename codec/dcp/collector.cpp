@@ -13,6 +13,12 @@ Collector::Collector(const FvcConfig& config, const FormatTraits& format) : fvc_
 
 void Collector::begin_frame(uint64_t ordinal) {
   collecting_ = ordinal % fvc_.config().period == 0;
+  lookups_ = {.dictionary = wanted && has_ccd_ ? lookup_.slots() : nullptr,
+              .indices = indices_.data(),
+              .widths = widths_.data(),
+              .members = collecting_ && fast_ ? fast_->members() : nullptr,
+              .slots = slots_.data(),
+              .found = {}};
   if (!collecting_) return;
   fvc_.reset();
   if (fast_) fast_->reset();
@@ -29,14 +35,16 @@ void Collector::see_run(uint32_t color, uint32_t count) {
   fast_ ? fast_->see_run(color, count) : fvc_.see_run(color, count);
 }
 
-void Collector::see_all(const uint32_t* pixels, uint32_t count, const FewColors* few, const BlockKeys* keys) {
+void Collector::see_all(const uint32_t* pixels, uint32_t count, const FewColors* few) {
   if (!collecting_) return;
   if (!fast_) {
     fvc_.see_all(pixels, count);
   } else if (count < kBlockPixels) {
     for (uint32_t i = 0; i < count; ++i) fast_->see_run(pixels[i], 1);
+  } else if (has_found_) {
+    fast_->see_found(pixels, lookups_.found, slots_.data());
   } else if (few == nullptr || !fast_->see_block(*few)) {
-    fast_->see_block(pixels, keys);
+    fast_->see_block(pixels);
   }
 }
 
@@ -53,13 +61,23 @@ void Collector::build_ccd() {
   has_ccd_ = true;
 }
 
-void Collector::look_up(const uint32_t* pixels, bool uniform, const FewColors* few, const BlockKeys* keys) {
-  if (few != nullptr && keys == nullptr)
-    return lookup_.find_block(pixels, *few, indices_.data(), widths_.data());
-  if (!uniform) return lookup_.find_block(pixels, keys, indices_.data(), widths_.data());
-  const uint16_t index = lookup_.find(pixels[0]);
-  indices_.fill(index);
-  widths_.fill(width_of(index));
+void Collector::look_up(const uint32_t* pixels, bool uniform, const FewColors* few) {
+  if (uniform) {
+    const uint16_t index = lookup_.find(pixels[0]);
+    indices_.fill(index);
+    widths_.fill(width_of(index));
+  } else if (few != nullptr) {
+    lookup_.find_block(pixels, *few, indices_.data(), widths_.data());
+  } else {
+    lookup_.find_block(pixels, indices_.data(), widths_.data());
+  }
+}
+
+bool Collector::load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels) {
+  const bool uniform = kernels().load_slots(top_left, stride, pixels, lookups_);
+  has_found_ = !uniform && lookups_.members != nullptr;
+  if (wanted && has_ccd_ && (uniform || lookups_.dictionary == nullptr)) look_up(pixels, uniform, nullptr);
+  return uniform;
 }
 
 }  // namespace tilepress

@@ -27,16 +27,18 @@ class Collector {
   bool listen(ColorListener* listener);
   /// `count` pixels of one colour in a row.
   void see_run(uint32_t color, uint32_t count);
-  /// Pixels in traversal order. Of a whole block also `few`, its colours if they are few, and `keys`, or
-  /// null.
-  void see_all(const uint32_t* pixels, uint32_t count, const FewColors* few, const BlockKeys* keys);
+  /// Pixels in traversal order. Of a whole block also `few`, its colours if they are few, or null.
+  void see_all(const uint32_t* pixels, uint32_t count, const FewColors* few);
   /// After the last pixel: fvc() holds what was collected.
   void end_frame();
   /// After end_frame(), for schemes that look colours up.
   void build_ccd();
 
   /// Of a block in traversal order: indices() and widths(), see BlockContext. Precondition: ccd() is there.
-  void look_up(const uint32_t* pixels, bool uniform, const FewColors* few, const BlockKeys* keys);
+  void look_up(const uint32_t* pixels, bool uniform, const FewColors* few);
+  /// As Kernels::load_traversal; and look_up() if there is a ccd() and it is wanted. What see_all() finds out
+  /// about the pixels is found at once: unless they are all equal, that is to come next.
+  bool load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels);
 
   const Fvc& fvc() const { return fvc_; }
   const Ccd* ccd() const { return has_ccd_ ? &ccd_ : nullptr; }  ///< null: none yet
@@ -54,6 +56,9 @@ class Collector {
   bool collecting_ = false;  ///< in this frame
   std::array<uint16_t, kBlockPixels> indices_;
   std::array<uint8_t, kSubBlocks> widths_;
+  std::array<uint8_t, kBlockPixels> slots_;
+  SlotLookups lookups_{};   ///< of load()
+  bool has_found_ = false;  ///< lookups_ holds what was found of the pixels to be seen next
 };
 
 }  // namespace tilepress

@@ -248,6 +248,7 @@ void LfcCollector::count_rest(const Place* places, FoundSlots found, uint32_t fr
   if (from == kLanes) return;
   const uint64_t rest = ~uint64_t{0} << from;
   uint64_t hits = found.known & rest;
+  if (hits == 0) return;
   const bool few_runs = bit_count(found.begins & rest) <= kFewRuns;
   if (!few_runs && bit_count(hits) > kFewHits) return count_hits(places, from, kLanes);
   if constexpr (sizeof(Place) == 1)
@@ -258,65 +259,71 @@ void LfcCollector::count_rest(const Place* places, FoundSlots found, uint32_t fr
   }
 }
 
-/// `find(places)` finds the places of the block's pixels.
+/// Takes misses up to the first that changes the members, if one does; true then. `count_to(lane)` counts the
+/// hits before `lane`, which must be done before members change.
+template <class CountTo>
+bool LfcCollector::take_misses(const uint32_t* pixels, uint64_t misses, const CountTo& count_to) {
+  if (!full()) {
+    const auto lane = static_cast<uint32_t>(std::countr_zero(misses));
+    count_to(lane + 1);
+    fill_slot(pixels[lane], 1);
+    return true;
+  }
+  std::array<uint32_t, kLanes + 16> packed;
+  const bool all = misses == ~uint64_t{0};  // then there is nothing to pack
+  const uint32_t* colors = all ? pixels : packed.data();
+  uint64_t alike = all ? ~kernels().run_begins(pixels) | (pixels[0] == tail_color_ ? 1 : 0)
+                       : kernels().compact(pixels, misses, tail_color_, packed.data());
+  while (misses != 0) {
+    const uint32_t settles = first_to_settle(alike), left = bit_count(misses);
+    const uint32_t count = std::min(settles + 1, left);
+    if (listener_ != nullptr) listener_->see_pixels(colors, count, alike);
+    const auto run = static_cast<uint32_t>(std::countl_one(alike << (kLanes - count)));
+    tail_count_ = run == count ? tail_count_ + count : run + 1;
+    tail_color_ = colors[count - 1];
+    if (settles == kLanes) return false;
+    for (uint32_t i = 0; i < settles; ++i) misses &= misses - 1;
+    const auto lane = static_cast<uint32_t>(std::countr_zero(misses));
+    misses &= misses - 1;
+    colors += count;
+    alike = alike >> settles >> 1;
+    count_to(lane + 1);
+    if (settle_tail()) return true;
+  }
+  return false;
+}
+
+/// `places` and `found` are those of the block's pixels; find() finds them anew.
 template <class Place, class Find>
-void LfcCollector::take_block(const uint32_t* pixels, const Find& find) {
-  Place places[kLanes];
-  FoundSlots found = find(places);
+void LfcCollector::take_block(const uint32_t* pixels, Place* places, FoundSlots found, const Find& find) {
+  samples_ += kLanes;
   if (found.known == ~uint64_t{0} ||
       (full() && listener_ == nullptr && take_few_misses(pixels, ~found.known)))
     return count_rest(places, found, 0);
-  for (uint32_t from = 0; from < kLanes; found = find(places)) {  // pixels before are counted
+  for (uint32_t from = 0; from < kLanes; found = find()) {  // pixels before are counted
     const auto count_to = [&](uint32_t lane) {
       count_hits(places, from, lane);
       from = lane;
     };
-    uint64_t misses = ~found.known & ~uint64_t{0} << from;
-    bool changed = false;
-    if (misses != 0 && !full()) {
-      const auto lane = static_cast<uint32_t>(std::countr_zero(misses));
-      count_to(lane + 1);
-      fill_slot(pixels[lane], 1);
-      changed = true;
-    } else if (misses != 0) {
-      std::array<uint32_t, kLanes + 16> packed;
-      const bool all = misses == ~uint64_t{0};  // then there is nothing to pack
-      const uint32_t* colors = all ? pixels : packed.data();
-      uint64_t alike = all ? ~kernels().run_begins(pixels) | (pixels[0] == tail_color_ ? 1 : 0)
-                           : kernels().compact(pixels, misses, tail_color_, packed.data());
-      for (uint32_t taken = 0; misses != 0 && !changed;) {
-        const uint32_t settles = first_to_settle(alike), left = bit_count(misses);
-        const uint32_t count = std::min(settles + 1, left);
-        if (listener_ != nullptr) listener_->see_pixels(&colors[taken], count, alike);
-        const auto run = static_cast<uint32_t>(std::countl_one(alike << (kLanes - count)));
-        tail_count_ = run == count ? tail_count_ + count : run + 1;
-        tail_color_ = colors[taken + count - 1];
-        if (settles == kLanes) break;
-        for (uint32_t i = 0; i < settles; ++i) misses &= misses - 1;
-        const auto lane = static_cast<uint32_t>(std::countr_zero(misses));
-        misses &= misses - 1;
-        taken += count;
-        alike = alike >> settles >> 1;
-        count_to(lane + 1);
-        changed = settle_tail();
-      }
-    }
-    if (!changed) return count_rest(places, found, from);
+    const uint64_t misses = ~found.known & ~uint64_t{0} << from;
+    if (misses == 0 || !take_misses(pixels, misses, count_to)) return count_rest(places, found, from);
   }
 }
 
-void LfcCollector::see_block(const uint32_t* pixels, const BlockKeys* keys) {
-  if (by_slots_ && keys == nullptr) {
-    for (uint32_t i = 0; i < kLanes; ++i) see_run(pixels[i], 1);
-    return;
+void LfcCollector::see_found(const uint32_t* pixels, FoundSlots found, uint8_t* slots) {
+  take_block(pixels, slots, found, [&] { return kernels().find_slots(pixels, slots_, slots); });
+}
+
+void LfcCollector::see_block(const uint32_t* pixels) {
+  if (by_slots_) {
+    uint8_t slots[kLanes];
+    return see_found(pixels, kernels().find_slots(pixels, slots_, slots), slots);
   }
-  samples_ += kLanes;
-  if (by_slots_)
-    return take_block<uint8_t>(pixels,
-                               [&](uint8_t* slots) { return kernels().find_slots(*keys, slots_, slots); });
-  take_block<uint32_t>(pixels, [&](uint32_t* places) -> FoundSlots {
+  uint32_t places[kLanes];
+  const auto find = [&]() -> FoundSlots {
     return {kernels().members(pixels, table_, crowded_colors_.data(), crowded_, places), ~uint64_t{0}};
-  });
+  };
+  take_block(pixels, places, find(), find);
 }
 
 void LfcCollector::tell_held() {

@@ -45,12 +45,16 @@ class LfcCollector {
   void listen(ColorListener* listener) { listener_ = listener; }
   /// After the last pixel of a frame.
   void tell_held();
-  /// A whole block, 64 pixels in traversal order, `keys` null or of the same.
-  void see_block(const uint32_t* pixels, const BlockKeys* keys);
+  /// A whole block, 64 pixels in traversal order.
+  void see_block(const uint32_t* pixels);
+  /// The same, where Kernels::find_slots() found its `slots` among members(); they are of no meaning then.
+  void see_found(const uint32_t* pixels, FoundSlots found, uint8_t* slots);
   /// The same for a block of few colours. False, and nothing happened, if not all of them are held.
   bool see_block(const FewColors& few);
   /// `count` pixels of one colour in a row.
   void see_run(uint32_t color, uint32_t count);
+  /// What to look for in the next block; null if it is not kept so.
+  const SlotTable* members() const { return by_slots_ ? &slots_ : nullptr; }
   /// Hands slots, counts and samples to the plain FVC.
   void store_to(Fvc& fvc) const;
 
@@ -79,8 +83,10 @@ class LfcCollector {
   void count_hits(const Place* places, uint32_t from, uint32_t to);
   template <class Place>
   void count_rest(const Place* places, FoundSlots found, uint32_t from);
+  template <class CountTo>
+  bool take_misses(const uint32_t* pixels, uint64_t misses, const CountTo& count_to);
   template <class Place, class Find>
-  void take_block(const uint32_t* pixels, const Find& find);
+  void take_block(const uint32_t* pixels, Place* places, FoundSlots found, const Find& find);
 
   const uint32_t entries_;
   const bool by_slots_;  ///< slots_ holds the members, and a member's place is its slot; else table_ does

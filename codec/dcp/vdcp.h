@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 #include "dcp/dcp_family.h"
 #include "simd/kernels.h"
@@ -14,7 +15,17 @@ namespace tilepress {
 
 /// Payload bits of a block.
 inline uint32_t vdcp_measure(const BlockContext& block, uint32_t pixel_bits) {
-  return kSubBlockPixels * kernels().width_sum(block.ccd_widths, pixel_bits);
+  constexpr uint64_t kOnes = 0x0101010101010101;
+  uint64_t sums = 0, raw = 0;  // byte by byte, of eight sub-blocks each
+  for (uint32_t sub = 0; sub < kSubBlocks; sub += 8) {
+    uint64_t widths;
+    std::memcpy(&widths, block.ccd_widths + sub, 8);
+    const uint64_t are_raw = widths >> 7 & kOnes;  // kRawWidth alone has the top bit
+    raw += are_raw;
+    sums += widths & ~(are_raw * 0xFF);
+  }
+  const auto bits = static_cast<uint32_t>((sums * kOnes >> 56) + (raw * kOnes >> 56) * pixel_bits);
+  return kSubBlockPixels * bits;
 }
 
 /// Up to this width the indices of two sub-blocks fit into one put.

@@ -42,24 +42,21 @@ void merge_bits(std::span<const uint8_t> from, uint32_t bits, std::span<uint8_t>
 }
 
 template <typename Word>
-void copy_ends(const uint8_t* from, uint32_t bytes, uint8_t* to) {
+void repeat_ends(const uint8_t* from, size_t bytes, uint8_t* to, size_t times) {
   Word first, last;
   std::memcpy(&first, from, sizeof first);
   std::memcpy(&last, from + bytes - sizeof last, sizeof last);
-  std::memcpy(to, &first, sizeof first);
-  std::memcpy(to + bytes - sizeof last, &last, sizeof last);
+  for (; times > 0; --times, to += bytes) {
+    std::memcpy(to, &first, sizeof first);
+    std::memcpy(to + bytes - sizeof last, &last, sizeof last);
+  }
 }
 
-/// A few bytes, without a call.
-void copy_bytes(const uint8_t* from, uint32_t bytes, uint8_t* to) {
-  if (bytes > 16)
-    std::memcpy(to, from, bytes);
-  else if (bytes >= 8)
-    copy_ends<uint64_t>(from, bytes, to);
-  else if (bytes >= 4)
-    copy_ends<uint32_t>(from, bytes, to);
-  else
-    for (uint32_t i = 0; i < bytes; ++i) to[i] = from[i];
+/// A few bytes so many times, one after the other, without a call.
+void repeat_bytes(const uint8_t* from, size_t bytes, uint8_t* to, size_t times) {
+  if (bytes >= 8 && bytes <= 16) return repeat_ends<uint64_t>(from, bytes, to, times);
+  if (bytes >= 4 && bytes < 8) return repeat_ends<uint32_t>(from, bytes, to, times);
+  for (; times > 0; --times, to += bytes) std::memcpy(to, from, bytes);
 }
 
 }  // namespace
@@ -109,7 +106,7 @@ uint32_t SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& bloc
   const size_t used_bytes = (payload_bits + 7) / 8, used_before = (block_bits_[last_] + 7u) / 8;
   if (used_bytes < used_before) std::memset(slot + used_bytes, 0, used_before - used_bytes);
   block_bits_[last_] = static_cast<uint16_t>(payload_bits);
-  put_csb(last_);
+  put_csb(last_, 1);
   return payload_bits;
 }
 
@@ -127,14 +124,14 @@ void SurfaceStore::put_again(uint32_t bx, uint32_t bx_end, uint32_t by) {
     for (size_t at = 0; at < most_bytes; at += kLine) std::memcpy(slot + at, from + at, kLine);
     *bits = payload_bits;
   }
-  for (uint64_t number = first; number < first + (bx_end - bx); ++number) put_csb(number);
+  put_csb(first, bx_end - bx);
 }
 
-/// The CSB bits of the block put last, for block `number`.
-void SurfaceStore::put_csb(uint64_t number) {
-  if (csb_bits_ % 8 == 0)
-    copy_bytes(last_csb_.data(), csb_bits_ / 8, csb_.data() + number * (csb_bits_ / 8));
-  else
+/// The CSB bits of the block put last, for `count` blocks from number `first` on.
+void SurfaceStore::put_csb(uint64_t first, uint32_t count) {
+  if (const size_t bytes = csb_bits_ / 8; csb_bits_ % 8 == 0)
+    return repeat_bytes(last_csb_.data(), bytes, csb_.data() + first * bytes, count);
+  for (uint64_t number = first; number < first + count; ++number)
     merge_bits(last_csb_, csb_bits_, csb_, number * csb_bits_);
 }
 

@@ -22,7 +22,7 @@ class SurfaceStore {
 
  private:
   static constexpr uint32_t kMaxCsbBytes = 32;
-  void put_csb(uint64_t number);
+  void put_csb(uint64_t first, uint32_t count);
   uint8_t* payload_ = nullptr;  ///< of the surface, as what follows
   uint16_t* block_bits_ = nullptr;
   std::span<uint8_t> csb_;

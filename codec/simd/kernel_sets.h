@@ -16,9 +16,10 @@ std::vector<const Kernels*> highway_kernels();
 const Kernels* byte_permute_kernels(const Kernels& base);
 
 // What there is for byte permutes only, plainly: the definition, and the other sets' own.
-FoundSlots find_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint8_t* slots);
+bool load_slots_plainly(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, SlotLookups& lookups);
+FoundSlots find_slots_plainly(const uint32_t* pixels, const SlotTable& table, uint8_t* slots);
 uint64_t count_slots_plainly(const uint8_t* slots, uint64_t wanted, uint32_t* counts);
-void index_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint16_t* indices, uint8_t* widths);
+void index_slots_plainly(const uint32_t* pixels, const SlotTable& table, uint16_t* indices, uint8_t* widths);
 uint32_t code_sum_plainly(const uint16_t* indices, const uint8_t* lengths, uint32_t raw_bits);
 WrittenBlock write_sub_blocks_plainly(const uint32_t* pixels, const uint16_t* indices, const uint8_t* widths,
                                       uint32_t mark_bits, uint8_t* out);

@@ -29,6 +29,16 @@ struct FoundSlots {
   uint64_t begins;  ///< bit i: pixel i is of another slot than the one before it; bit 0 is set
 };
 
+/// What load_slots looks up, and where to.
+struct SlotLookups {
+  const SlotTable* dictionary;  ///< for index_slots; null: not wanted
+  uint16_t* indices;
+  uint8_t* widths;
+  const SlotTable* members;  ///< for find_slots; null: not wanted
+  uint8_t* slots;
+  FoundSlots found;
+};
+
 struct WrittenBlock {
   uint32_t bits;      ///< written
   uint64_t marks[2];  ///< of eight sub-blocks each, the low bits of their widths, the first on top
@@ -43,12 +53,16 @@ struct Smallest {
 struct Kernels {
   const char* name;
 
-  /// find_slots, index_slots and write_sub_blocks are quicker than members, find and putting bits.
+  /// load_slots, find_slots, index_slots and write_sub_blocks are quicker than members, find and putting
+  /// bits.
   bool byte_permutes;
 
-  /// Copies an 8×8 block out of a plane (`stride` words from row to row) into traversal order, and fills
-  /// `keys` unless null. True if all 64 pixels are equal; the keys are not filled then.
-  bool (*load_traversal)(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, BlockKeys* keys);
+  /// Copies an 8×8 block out of a plane (`stride` words from row to row) into traversal order. True if all 64
+  /// pixels are equal.
+  bool (*load_traversal)(const uint32_t* top_left, uint32_t stride, uint32_t* pixels);
+
+  /// The same, and looks the pixels up unless they are all equal.
+  bool (*load_slots)(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, SlotLookups& lookups);
 
   /// Of `most` 8×8 blocks side by side, how many, from the first on, are all `color`.
   uint32_t (*solid_blocks)(const uint32_t* top_left, uint32_t stride, uint32_t color, uint32_t most);
@@ -58,14 +72,14 @@ struct Kernels {
   void (*find)(const uint32_t* pixels, const ProbeTable& table, uint16_t* indices, uint8_t* widths);
 
   /// slots[i] = the slot of pixel i of the block, SlotTable::kAbsent if it has none.
-  FoundSlots (*find_slots)(const BlockKeys& keys, const SlotTable& table, uint8_t* slots);
+  FoundSlots (*find_slots)(const uint32_t* pixels, const SlotTable& table, uint8_t* slots);
 
   /// Adds to counts[slots[i]] the number of pixels of that slot, slot by slot, until those of `wanted` are
   /// counted, or those of four slots are; returns the pixels left.
   uint64_t (*count_slots)(const uint8_t* slots, uint64_t wanted, uint32_t* counts);
 
   /// As find, where the indices are slots.
-  void (*index_slots)(const BlockKeys& keys, const SlotTable& table, uint16_t* indices, uint8_t* widths);
+  void (*index_slots)(const uint32_t* pixels, const SlotTable& table, uint16_t* indices, uint8_t* widths);
 
   /// Bit i of the result: pixels[i] is `color`.
   uint64_t (*places_of)(const uint32_t* pixels, uint32_t color);
@@ -76,9 +90,6 @@ struct Kernels {
   /// As find, where the values of the block's few colours are known.
   void (*find_few)(const uint32_t* pixels, const FewColors& few, const uint32_t* few_values,
                    uint16_t* indices, uint8_t* widths);
-
-  /// Sum of the widths of the sub-blocks; `raw_bits` (16 or 32) where one is kRawWidth.
-  uint32_t (*width_sum)(const uint8_t* widths, uint32_t raw_bits);
 
   /// packed[s] = the four indices of sub-block s, the first on top, of widths[s] bits each; of no meaning
   /// where that is kRawWidth. Widths up to 8.

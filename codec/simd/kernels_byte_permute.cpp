@@ -43,46 +43,65 @@ struct BytesOf {
   }
 };
 
-/// BlockKeys::kMasks as bit matrices: byte 7 - i has the mask of bit i of the result.
+/// SlotBuckets::kMasks as bit matrices: byte 7 - i has the mask of bit i of the result.
 struct BucketMatrices {
   uint64_t of[2][4];
   constexpr BucketMatrices() : of() {
     for (uint32_t which = 0; which < 2; ++which)
       for (uint32_t c = 0; c < 4; ++c)
         for (uint32_t bit = 0; bit < 7; ++bit)
-          of[which][c] |= uint64_t{BlockKeys::kMasks[which][bit] >> 8 * c & 0xFF} << 8 * (7 - bit);
+          of[which][c] |= uint64_t{SlotBuckets::kMasks[which][bit] >> 8 * c & 0xFF} << 8 * (7 - bit);
   }
 };
 
-TILEPRESS_VBMI bool load_traversal(const uint32_t* top_left, uint32_t stride, uint32_t* pixels,
-                                   BlockKeys* keys) {
+/// A block's pixels taken apart into bytes, and the buckets where a slot table looks for each.
+struct Keys {
+  __m512i bytes[4];  ///< byte c of each pixel
+  __m512i buckets[2];
+};
+
+TILEPRESS_VBMI_INLINE Keys keys_of(const __m512i (&words)[4]) {
+  static constexpr BytesOf k01(0, 1), k23(2, 3);
+  static constexpr BucketMatrices kMatrices;
+  Keys keys;
+  take_bytes(words, _mm512_load_si512(k01.at), keys.bytes[0], keys.bytes[1]);
+  take_bytes(words, _mm512_load_si512(k23.at), keys.bytes[2], keys.bytes[3]);
+  for (uint32_t which = 0; which < 2; ++which) {
+    __m512i parts[4];
+    for (uint32_t c = 0; c < 4; ++c) {
+      const __m512i matrix = _mm512_set1_epi64(static_cast<long long>(kMatrices.of[which][c]));
+      parts[c] = _mm512_gf2p8affine_epi64_epi8(keys.bytes[c], matrix, 0);
+    }
+    const __m512i three = _mm512_ternarylogic_epi64(parts[0], parts[1], parts[2], 0x96);  // exclusive or
+    keys.buckets[which] = _mm512_xor_si512(three, parts[3]);
+  }
+  return keys;
+}
+
+TILEPRESS_VBMI_INLINE Keys keys_of(const uint32_t* pixels) {
+  __m512i words[4];
+  for (uint32_t i = 0; i < 4; ++i) words[i] = _mm512_loadu_si512(pixels + 16 * i);
+  return keys_of(words);
+}
+
+/// Loads a block in traversal order; true if all pixels are equal.
+TILEPRESS_VBMI_INLINE bool load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels,
+                                __m512i (&words)[4]) {
   // Pairs of two rows, interleaved: sub-blocks.
   const __m512i order = _mm512_setr_epi64(0, 4, 1, 5, 2, 6, 3, 7);
   const __m512i first = _mm512_set1_epi32(static_cast<int>(*top_left));
-  __m512i words[4], difference = _mm512_setzero_si512();
+  __m512i difference = _mm512_setzero_si512();
   for (uint32_t i = 0; i < 4; ++i) {
     words[i] = _mm512_permutexvar_epi64(order, two_rows(top_left + size_t{2 * i} * stride, stride));
     _mm512_storeu_si512(pixels + 16 * i, words[i]);
     difference = _mm512_ternarylogic_epi64(difference, words[i], first, 0xF6);  // difference | words ^ first
   }
-  if (_mm512_test_epi64_mask(difference, difference) == 0) return true;
-  if (keys == nullptr) return false;
-  static constexpr BytesOf k01(0, 1), k23(2, 3);
-  __m512i bytes[4];
-  take_bytes(words, _mm512_load_si512(k01.at), bytes[0], bytes[1]);
-  take_bytes(words, _mm512_load_si512(k23.at), bytes[2], bytes[3]);
-  for (uint32_t c = 0; c < 4; ++c) _mm512_store_si512(keys->bytes[c], bytes[c]);
-  static constexpr BucketMatrices kMatrices;
-  for (uint32_t which = 0; which < 2; ++which) {
-    __m512i parts[4];
-    for (uint32_t c = 0; c < 4; ++c) {
-      const __m512i matrix = _mm512_set1_epi64(static_cast<long long>(kMatrices.of[which][c]));
-      parts[c] = _mm512_gf2p8affine_epi64_epi8(bytes[c], matrix, 0);
-    }
-    const __m512i three = _mm512_ternarylogic_epi64(parts[0], parts[1], parts[2], 0x96);  // exclusive or
-    _mm512_store_si512(keys->buckets[which], _mm512_xor_si512(three, parts[3]));
-  }
-  return false;
+  return _mm512_test_epi64_mask(difference, difference) == 0;
+}
+
+TILEPRESS_VBMI bool load_traversal(const uint32_t* top_left, uint32_t stride, uint32_t* pixels) {
+  __m512i words[4];
+  return load(top_left, stride, pixels, words);
 }
 
 // Two blocks at a time.
@@ -101,13 +120,13 @@ TILEPRESS_VBMI uint32_t solid_blocks(const uint32_t* top_left, uint32_t stride, 
   return most;
 }
 
-/// Zero bytes where the colour in `slots` is that of the pixel.
-TILEPRESS_VBMI_INLINE __m512i difference(const BlockKeys& keys, const SlotTable& table, __m512i slots) {
-  // What an empty bucket holds has its top bit set.
-  __m512i sum = _mm512_and_si512(slots, _mm512_set1_epi8(static_cast<char>(SlotTable::kEmpty)));
-  for (uint32_t c = 0; c < 4; ++c) {
+/// Zero bytes where bytes `begin` to `end` of the colour in `slots` are those of the pixel, besides what is
+/// zero in `sum`.
+TILEPRESS_VBMI_INLINE __m512i difference(const Keys& keys, const SlotTable& table, __m512i slots,
+                                         uint32_t begin, uint32_t end, __m512i sum) {
+  for (uint32_t c = begin; c < end; ++c) {
     const __m512i color = _mm512_permutexvar_epi8(slots, _mm512_load_si512(table.bytes[c]));
-    sum = _mm512_ternarylogic_epi64(sum, color, _mm512_load_si512(keys.bytes[c]), 0xF6);  // sum | color ^ key
+    sum = _mm512_ternarylogic_epi64(sum, color, keys.bytes[c], 0xF6);  // sum | color ^ key
   }
   return sum;
 }
@@ -117,30 +136,38 @@ struct Slots {
   __mmask64 known;
 };
 
-TILEPRESS_VBMI_INLINE Slots find(const BlockKeys& keys, const SlotTable& table) {
-  __m512i candidates[2];
+TILEPRESS_VBMI_INLINE Slots find(const Keys& keys, const SlotTable& table) {
+  __m512i candidates[2], differs[2];
   __mmask64 known[2];
   for (uint32_t which = 0; which < 2; ++which) {
-    candidates[which] = _mm512_permutex2var_epi8(
-        _mm512_load_si512(table.buckets[which]), _mm512_load_si512(keys.buckets[which]),
-        _mm512_load_si512(table.buckets[which] + SlotTable::kBuckets / 2));
-    const __m512i differs = difference(keys, table, candidates[which]);
-    known[which] = _mm512_testn_epi8_mask(differs, differs);
+    candidates[which] =
+        _mm512_permutex2var_epi8(_mm512_load_si512(table.buckets[which]), keys.buckets[which],
+                                 _mm512_load_si512(table.buckets[which] + SlotTable::kBuckets / 2));
+    // What an empty bucket holds has its top bit set.
+    const __m512i empty =
+        _mm512_and_si512(candidates[which], _mm512_set1_epi8(static_cast<char>(SlotTable::kEmpty)));
+    differs[which] = difference(keys, table, candidates[which], 0, 1, empty);
+    known[which] = _mm512_testn_epi8_mask(differs[which], differs[which]);
+  }
+  if ((known[0] | known[1] | table.stashed) == 0) return {_mm512_set1_epi8(SlotTable::kAbsent), 0};
+  for (uint32_t which = 0; which < 2; ++which) {
+    differs[which] = difference(keys, table, candidates[which], 1, 4, differs[which]);
+    known[which] = _mm512_testn_epi8_mask(differs[which], differs[which]);
   }
   __m512i slots = _mm512_mask_mov_epi8(_mm512_set1_epi8(SlotTable::kAbsent), known[0], candidates[0]);
   slots = _mm512_mask_mov_epi8(slots, known[1], candidates[1]);
   __mmask64 all = known[0] | known[1];
   for (uint64_t left = table.stashed; __builtin_expect(left != 0, 0); left &= left - 1) {
     const auto slot = _mm512_set1_epi8(static_cast<char>(__builtin_ctzll(left)));
-    const __m512i differs = difference(keys, table, slot);
-    const __mmask64 here = _mm512_testn_epi8_mask(differs, differs);
+    const __m512i differ = difference(keys, table, slot, 0, 4, _mm512_setzero_si512());
+    const __mmask64 here = _mm512_testn_epi8_mask(differ, differ);
     slots = _mm512_mask_mov_epi8(slots, here, slot);
     all |= here;
   }
   return {slots, all};
 }
 
-TILEPRESS_VBMI FoundSlots find_slots(const BlockKeys& keys, const SlotTable& table, uint8_t* slots) {
+TILEPRESS_VBMI_INLINE FoundSlots find_slots(const Keys& keys, const SlotTable& table, uint8_t* slots) {
   const Slots found = find(keys, table);
   _mm512_storeu_si512(slots, found.slots);
   static constexpr struct Before {
@@ -164,8 +191,8 @@ TILEPRESS_VBMI uint64_t count_slots(const uint8_t* slots, uint64_t wanted, uint3
   return wanted;
 }
 
-TILEPRESS_VBMI void index_slots(const BlockKeys& keys, const SlotTable& table, uint16_t* indices,
-                                uint8_t* widths) {
+TILEPRESS_VBMI_INLINE void index_slots(const Keys& keys, const SlotTable& table, uint16_t* indices,
+                                       uint8_t* widths) {
   const Slots found = find(keys, table);
   const __m512i none = _mm512_set1_epi16(-1);
   const auto store = [&](uint32_t half) TILEPRESS_VBMI {
@@ -192,6 +219,25 @@ TILEPRESS_VBMI void index_slots(const BlockKeys& keys, const SlotTable& table, u
   const __m512i width =
       _mm512_mask_mov_epi8(_mm512_permutexvar_epi8(largest, _mm512_load_si512(kWidths.of)), raw, none);
   _mm_storeu_si128(reinterpret_cast<__m128i*>(widths), _mm512_cvtepi32_epi8(width));
+}
+
+TILEPRESS_VBMI FoundSlots find_slots(const uint32_t* pixels, const SlotTable& table, uint8_t* slots) {
+  return find_slots(keys_of(pixels), table, slots);
+}
+
+TILEPRESS_VBMI void index_slots(const uint32_t* pixels, const SlotTable& table, uint16_t* indices,
+                                uint8_t* widths) {
+  index_slots(keys_of(pixels), table, indices, widths);
+}
+
+TILEPRESS_VBMI bool load_slots(const uint32_t* top_left, uint32_t stride, uint32_t* pixels,
+                               SlotLookups& lookups) {
+  __m512i words[4];
+  if (load(top_left, stride, pixels, words)) return true;
+  const Keys keys = keys_of(words);
+  if (lookups.dictionary != nullptr) index_slots(keys, *lookups.dictionary, lookups.indices, lookups.widths);
+  if (lookups.members != nullptr) lookups.found = find_slots(keys, *lookups.members, lookups.slots);
+  return false;
 }
 
 // Neighbours are compared in registers: to load what was just stored elsewhere than where it was stored
@@ -380,6 +426,7 @@ const Kernels* byte_permute_kernels(const Kernels& base) {
     set.name = "avx512vbmi";
     set.byte_permutes = true;
     set.load_traversal = load_traversal;
+    set.load_slots = load_slots;
     set.solid_blocks = solid_blocks;
     set.run_begins = run_begins;
     set.compact = compact;

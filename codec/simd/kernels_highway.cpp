@@ -38,8 +38,7 @@ HWY_INLINE auto MaskOf(const Words& d, uint64_t bits) {
   return hn::LoadMaskBits(d, bytes);
 }
 
-bool LoadTraversal(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t* HWY_RESTRICT pixels,
-                   BlockKeys* keys) {
+bool LoadTraversal(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t* HWY_RESTRICT pixels) {
   const hn::Full128<uint64_t> d;  // two pixels a lane: sub-blocks interleave pairs of two rows
   const auto first = hn::Set(d, uint64_t{top_left[0]} << 32 | top_left[0]);
   auto difference = hn::Zero(d);
@@ -56,9 +55,7 @@ bool LoadTraversal(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint3
     }
   }
   const hn::Full128<uint32_t> d32;
-  const bool uniform = hn::AllTrue(d32, hn::Eq(hn::BitCast(d32, difference), hn::Zero(d32)));
-  if (keys != nullptr && !uniform) keys->fill(pixels);
-  return uniform;
+  return hn::AllTrue(d32, hn::Eq(hn::BitCast(d32, difference), hn::Zero(d32)));
 }
 
 uint32_t SolidBlocks(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t color, uint32_t most) {
@@ -166,15 +163,6 @@ void FindFew(const uint32_t* HWY_RESTRICT pixels, const FewColors& few,
     out.Put(i, value, indices);
   }
   out.Widths(widths);
-}
-
-uint32_t WidthSum(const uint8_t* HWY_RESTRICT widths, uint32_t raw_bits) {
-  const hn::Full128<uint8_t> d;
-  const hn::Full128<uint64_t> d64;
-  const auto width = hn::LoadU(d, widths);
-  const auto raw = hn::Eq(width, hn::Set(d, kRawWidth));
-  const auto bits = hn::IfThenElse(raw, hn::Set(d, static_cast<uint8_t>(raw_bits)), width);
-  return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(d64, hn::SumsOf8(bits))));
 }
 
 void Pack(const uint16_t* HWY_RESTRICT indices, const uint8_t* HWY_RESTRICT widths,
@@ -380,6 +368,7 @@ const Kernels& Set(const char* name) {
       .name = name,
       .byte_permutes = false,
       .load_traversal = LoadTraversal,
+      .load_slots = load_slots_plainly,
       .solid_blocks = SolidBlocks,
       .find = Find,
       .find_slots = find_slots_plainly,
@@ -388,7 +377,6 @@ const Kernels& Set(const char* name) {
       .places_of = PlacesOf,
       .split = Split,
       .find_few = FindFew,
-      .width_sum = WidthSum,
       .pack = Pack,
       .write_sub_blocks = write_sub_blocks_plainly,
       .code_sum = code_sum_plainly,

@@ -13,13 +13,12 @@
 namespace tilepress {
 namespace {
 
-bool load_traversal(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, BlockKeys* keys) {
+bool load_traversal(const uint32_t* top_left, uint32_t stride, uint32_t* pixels) {
   bool uniform = true;
   for (uint32_t i = 0; i < kLanes; ++i) {
     pixels[i] = top_left[kTraversal[i] / 8 * stride + kTraversal[i] % 8];
     uniform &= pixels[i] == pixels[0];
   }
-  if (keys != nullptr && !uniform) keys->fill(pixels);
   return uniform;
 }
 
@@ -73,12 +72,6 @@ void find_few(const uint32_t*, const FewColors& few, const uint32_t* few_values,
     for (uint32_t i = 0; i < kLanes; ++i)
       if ((few.places[n] >> i & 1) != 0) indices[i] = static_cast<uint16_t>(few_values[n]);
   fill_widths(indices, widths);
-}
-
-uint32_t width_sum(const uint8_t* widths, uint32_t raw_bits) {
-  uint32_t bits = 0;
-  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) bits += widths[sub] == kRawWidth ? raw_bits : widths[sub];
-  return bits;
 }
 
 void pack(const uint16_t* indices, const uint8_t* widths, uint32_t* packed) {
@@ -184,12 +177,18 @@ void widen_bytes(const uint32_t* top_left, uint32_t stride, int16_t* samples) {
 
 }  // namespace
 
-FoundSlots find_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint8_t* slots) {
+bool load_slots_plainly(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, SlotLookups& lookups) {
+  if (load_traversal(top_left, stride, pixels)) return true;
+  if (lookups.dictionary != nullptr)
+    index_slots_plainly(pixels, *lookups.dictionary, lookups.indices, lookups.widths);
+  if (lookups.members != nullptr) lookups.found = find_slots_plainly(pixels, *lookups.members, lookups.slots);
+  return false;
+}
+
+FoundSlots find_slots_plainly(const uint32_t* pixels, const SlotTable& table, uint8_t* slots) {
   FoundSlots found = {0, 1};
   for (uint32_t i = 0; i < kLanes; ++i) {
-    uint32_t color = 0;
-    for (uint32_t c = 0; c < 4; ++c) color |= uint32_t{keys.bytes[c][i]} << 8 * c;
-    slots[i] = static_cast<uint8_t>(table.find(color));
+    slots[i] = static_cast<uint8_t>(table.find(pixels[i]));
     found.known |= uint64_t{slots[i] != SlotTable::kAbsent} << i;
     if (i > 0) found.begins |= uint64_t{slots[i] != slots[i - 1]} << i;
   }
@@ -208,9 +207,9 @@ uint64_t count_slots_plainly(const uint8_t* slots, uint64_t wanted, uint32_t* co
   return wanted;
 }
 
-void index_slots_plainly(const BlockKeys& keys, const SlotTable& table, uint16_t* indices, uint8_t* widths) {
+void index_slots_plainly(const uint32_t* pixels, const SlotTable& table, uint16_t* indices, uint8_t* widths) {
   uint8_t slots[kLanes];
-  find_slots_plainly(keys, table, slots);
+  find_slots_plainly(pixels, table, slots);
   for (uint32_t i = 0; i < kLanes; ++i) indices[i] = slots[i] == SlotTable::kAbsent ? kNotInCcd : slots[i];
   fill_widths(indices, widths);
 }
@@ -250,6 +249,7 @@ const Kernels& scalar_kernels() {
       .name = "scalar",
       .byte_permutes = false,
       .load_traversal = load_traversal,
+      .load_slots = load_slots_plainly,
       .solid_blocks = solid_blocks,
       .find = find,
       .find_slots = find_slots_plainly,
@@ -258,7 +258,6 @@ const Kernels& scalar_kernels() {
       .places_of = places_of,
       .split = split,
       .find_few = find_few,
-      .width_sum = width_sum,
       .pack = pack,
       .write_sub_blocks = write_sub_blocks_plainly,
       .code_sum = code_sum_plainly,

@@ -50,7 +50,7 @@ void SlotTable::remove(uint32_t slot) {
 
 uint32_t SlotTable::find(uint32_t color) const {
   for (uint32_t which = 0; which < 2; ++which) {
-    const uint8_t slot = buckets[which][BlockKeys::bucket(color, which)];
+    const uint8_t slot = buckets[which][SlotBuckets::of(color, which)];
     if (slot != kEmpty && colors[slot] == color) return slot;
   }
   for (uint64_t left = stashed; left != 0; left &= left - 1) {

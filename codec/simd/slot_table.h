@@ -9,28 +9,18 @@
 
 namespace tilepress {
 
-/// A block's pixels in traversal order, taken apart into bytes, and the buckets where a slot table looks for
-/// each.
-struct BlockKeys {
-  alignas(64) uint8_t bytes[4][kBlockPixels];    ///< byte c of pixel i
-  alignas(64) uint8_t buckets[2][kBlockPixels];  ///< below 128
-
+/// The two buckets of a colour, below 128.
+struct SlotBuckets {
   /// Bit i of a bucket is the parity of the colour's bits under mask i: linear, so that byte c of 64 pixels
   /// gives its part of 64 buckets by one product of bit matrices. Of random masks the best out of many: grays
   /// and shades of any channels fill all buckets, and no two of them have both in common.
   static constexpr uint32_t kMasks[2][7] = {
       {0xEB6D8D01, 0xE3A0DF1B, 0xAD1FCCFA, 0xE1D088C6, 0xFF07A961, 0xD0DF7527, 0xDB89973A},
       {0x09ADE6F2, 0xB3BCEAE9, 0xAA4CAED1, 0xAB6CB08B, 0xD6E5CE85, 0xD83D9B39, 0xEF979572}};
-  static uint8_t bucket(uint32_t color, uint32_t which) {
+  static uint8_t of(uint32_t color, uint32_t which) {
     uint8_t bucket = 0;
     for (uint32_t c = 0; c < 4; ++c) bucket ^= kParts.of[which][c][color >> 8 * c & 0xFF];
     return bucket;
-  }
-  void fill(const uint32_t* pixels) {
-    for (uint32_t i = 0; i < kBlockPixels; ++i) {
-      for (uint32_t c = 0; c < 4; ++c) bytes[c][i] = static_cast<uint8_t>(pixels[i] >> 8 * c);
-      for (uint32_t which = 0; which < 2; ++which) buckets[which][i] = bucket(pixels[i], which);
-    }
   }
 
  private:
@@ -50,7 +40,7 @@ struct BlockKeys {
   static const Parts kParts;
 };
 
-inline constexpr BlockKeys::Parts BlockKeys::kParts;
+inline constexpr SlotBuckets::Parts SlotBuckets::kParts;
 
 /// A cuckoo hash table: a colour lies in one of two buckets, which hold its slot number. A colour that finds
 /// no bucket is stashed, and compared with every pixel.
@@ -76,9 +66,7 @@ class SlotTable {
   uint64_t stashed = 0;  ///< bit per slot
 
  private:
-  uint8_t& bucket_of(uint32_t color, uint32_t which) {
-    return buckets[which][BlockKeys::bucket(color, which)];
-  }
+  uint8_t& bucket_of(uint32_t color, uint32_t which) { return buckets[which][SlotBuckets::of(color, which)]; }
   void place(uint32_t slot);
 };
 

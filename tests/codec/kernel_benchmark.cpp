@@ -30,9 +30,8 @@ void fvc(benchmark::State& state, uint32_t pattern) {
   LfcCollector collector(64);
   size_t at = 0;
   uint32_t block[kBlockPixels];
-  BlockKeys keys;
   for (auto _ : state) {
-    if (!kernels().load_traversal(&pixels[at], kBlockSide, block, &keys)) collector.see_block(block, &keys);
+    if (!kernels().load_traversal(&pixels[at], kBlockSide, block)) collector.see_block(block);
     at = (at + kBlockPixels) % pixels.size();
   }
   set_rate(state);

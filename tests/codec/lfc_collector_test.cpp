@@ -70,12 +70,10 @@ TEST(LfcCollector, TellsOfEveryPixelOnce) {
           constexpr uint32_t kColors[] = {1, 2, 5, 20, 70, 130, 300, 60000};
           const auto pixels = draw_block(kColors[dice.below(8)], 1 + dice.below(12), dice);
           for (const uint32_t pixel : pixels) ++seen.counts[pixel];
-          BlockKeys keys;
-          keys.fill(pixels.data());
           if (std::count(pixels.begin(), pixels.end(), pixels[0]) == kBlockPixels)
             collector.see_run(pixels[0], kBlockPixels);
           else
-            collector.see_block(pixels.data(), &keys);
+            collector.see_block(pixels.data());
         }
         collector.tell_held();
         ASSERT_EQ(told.counts, seen.counts) << each << ", " << entries << " entries, frame " << frame;
@@ -110,11 +108,8 @@ TEST(LfcCollector, HoldsWhatThePlainFvcHolds) {
           fast.see_run(pixels[0], kBlockPixels);
         else if (kernels().split(pixels.data(), few) && fast.see_block(few))
           ++few_taken;
-        else {
-          BlockKeys keys;
-          keys.fill(pixels.data());
-          fast.see_block(pixels.data(), block % 3 == 0 ? nullptr : &keys);
-        }
+        else
+          fast.see_block(pixels.data());
         if (block % 7 != 0) continue;
         fast.store_to(fast_slots);
         ASSERT_EQ(differences(plain, fast_slots), "")
@@ -150,7 +145,7 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
     for (uint32_t s = 0; s < 16; ++s)
       widths[s] = s % 4 == 1 ? kRawWidth : width_of(*std::max_element(indices + 4 * s, indices + 4 * s + 4));
     kernels().pack(indices, widths, words);
-    const uint32_t raw_bits = 16 + round % 2 * 16, limit = dice.below(11);
+    const uint32_t limit = dice.below(11);
     uint8_t written[256], other_written[256];
     uint8_t few_widths[16];  // and indices that fit
     uint16_t few_indices[64];
@@ -179,7 +174,6 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
     for (uint16_t& index : coded)
       index = dice.below(8) < raw_share ? kNotInCcd : static_cast<uint16_t>(dice.below(64));
     const uint32_t code_sum = kernels().code_sum(coded, lengths, 64u << round % 2);
-    const uint32_t width_sum = kernels().width_sum(widths, raw_bits);
     const uint32_t narrow = kernels().count_up_to(widths, limit);
     for (const std::string_view each : simd_targets()) {
       SCOPED_TRACE(each);
@@ -208,7 +202,6 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
       ASSERT_EQ(kernels().count_slots(slots, mask, other_counted.data()), left);
       ASSERT_EQ(other_counted, counted);
       ASSERT_EQ(kernels().code_sum(coded, lengths, 64u << round % 2), code_sum);
-      ASSERT_EQ(kernels().width_sum(widths, raw_bits), width_sum);
       ASSERT_EQ(kernels().count_up_to(widths, limit), narrow);
       for (uint32_t sub = 0; sub < 16; ++sub)
         ASSERT_TRUE(widths[sub] == kRawWidth || words[sub] == other_words[sub]);

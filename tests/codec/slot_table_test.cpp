@@ -22,7 +22,7 @@ std::array<uint32_t, 64> crowded_colors() {
   std::array<uint32_t, 64> colors;
   uint32_t found = 0;
   for (uint32_t color = 0; found < 64; ++color)
-    if (BlockKeys::bucket(color, 0) == 5 && BlockKeys::bucket(color, 1) < 3) colors[found++] = color;
+    if (SlotBuckets::of(color, 0) == 5 && SlotBuckets::of(color, 1) < 3) colors[found++] = color;
   return colors;
 }
 
@@ -38,24 +38,30 @@ void expect_agreement(const SlotTable& table, const std::unordered_map<uint32_t,
   for (const std::string_view each : simd_targets()) {
     SCOPED_TRACE(each);
     force_simd_target(each);
-    BlockKeys keys;
     std::array<uint32_t, kBlockPixels> traversed;
     uint32_t raster[kBlockPixels];
     for (uint32_t i = 0; i < kBlockPixels; ++i) raster[kTraversal[i]] = pixels[i];
-    const bool uniform = kernels().load_traversal(raster, kBlockSide, traversed.data(), &keys);
+    std::array<uint16_t, kBlockPixels> indices;
+    uint8_t widths[kSubBlocks], slots[kBlockPixels];
+    SlotLookups lookups{&table, indices.data(), widths, &table, slots, {}};
+    const bool uniform = kernels().load_slots(raster, kBlockSide, traversed.data(), lookups);
     ASSERT_EQ(traversed, pixels);
     ASSERT_EQ(uniform, std::count(pixels.begin(), pixels.end(), pixels[0]) == kBlockPixels);
     if (uniform) continue;
-    uint8_t slots[kBlockPixels];
-    const FoundSlots found = kernels().find_slots(keys, table, slots);
+    ASSERT_EQ(indices, wanted);
     for (uint32_t i = 0; i < kBlockPixels; ++i) {
       ASSERT_EQ(slots[i], wanted[i] == kNotInCcd ? SlotTable::kAbsent : wanted[i]);
-      ASSERT_EQ(found.known >> i & 1, wanted[i] != kNotInCcd);
-      ASSERT_EQ(found.begins >> i & 1, i == 0 || slots[i] != slots[i - 1]);
+      ASSERT_EQ(lookups.found.known >> i & 1, wanted[i] != kNotInCcd);
+      ASSERT_EQ(lookups.found.begins >> i & 1, i == 0 || slots[i] != slots[i - 1]);
     }
-    std::array<uint16_t, kBlockPixels> indices;
-    uint8_t widths[kSubBlocks];
-    kernels().index_slots(keys, table, indices.data(), widths);
+    uint8_t slots_alone[kBlockPixels];
+    const FoundSlots found = kernels().find_slots(pixels.data(), table, slots_alone);
+    ASSERT_TRUE(std::ranges::equal(slots, slots_alone));
+    ASSERT_EQ(found.known, lookups.found.known);
+    ASSERT_EQ(found.begins, lookups.found.begins);
+    indices.fill(1);
+    std::ranges::fill(widths, 1);
+    kernels().index_slots(pixels.data(), table, indices.data(), widths);
     ASSERT_EQ(indices, wanted);
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub)
       ASSERT_EQ(widths[sub], width_of(*std::max_element(&wanted[4 * sub], &wanted[4 * sub] + 4)));
