@@ -84,7 +84,7 @@ struct SurfaceEngine::State {
   FewColors few;  ///< of the block being visited
   bool is_few = false;
   bool loads_slots = false;               ///< the first collector loads blocks, and looks them up at once
-  bool wants_few = false;                 ///< likewise, or the meter does
+  bool wants_few = false;                 ///< a collector makes use of few colours, or the meter does
   bool meter_looks = false;               ///< the meter has to see the pixels, and no collector tells it
   uint32_t few_score = 0;                 ///< how well it went lately to look for few colours
   uint32_t until_few = 0;                 ///< blocks not to look at, when it went badly

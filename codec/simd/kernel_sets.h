@@ -12,7 +12,7 @@ const Kernels& scalar_kernels();
 std::vector<const Kernels*> highway_kernels();
 
 /// `base`, which this processor can run, with what byte permutes do better; null where it has none (AVX-512
-/// VBMI and VBMI2).
+/// VBMI, VBMI2 and GFNI).
 const Kernels* byte_permute_kernels(const Kernels& base);
 
 // What there is for byte permutes only, plainly: the definition, and the other sets' own.
