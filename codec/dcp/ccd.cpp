@@ -74,10 +74,7 @@ void CcdLookup::find_block(const uint32_t* pixels, uint16_t* indices, uint8_t* w
     }
     indices[i] = last_index;
   }
-  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-    const uint16_t* of_sub = indices + sub * kSubBlockPixels;
-    widths[sub] = width_of(std::max({of_sub[0], of_sub[1], of_sub[2], of_sub[3]}));
-  }
+  fill_widths(indices, widths);
 }
 
 void CcdLookup::find_block(const uint32_t* pixels, const FewColors& few, uint16_t* indices,

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "simd/index_widths.h"
 #include "simd/kernels.h"
 #include "simd/probe_table.h"
 #include "tilepress/bit_io.h"
@@ -28,11 +29,6 @@ struct Ccd {
   uint32_t index_bits() const { return static_cast<uint32_t>(std::bit_width(entries) - 1); }  ///< M = log2 N
   void build(const Fvc& fvc);
 };
-
-/// Bits that the largest index of a sub-block takes; kRawWidth for kNotInCcd.
-constexpr uint8_t width_of(uint16_t largest) {
-  return largest == kNotInCcd ? kRawWidth : static_cast<uint8_t>(std::bit_width(largest));
-}
 
 /// Finds colours in a CCD. Small dictionaries get a table without collisions, found by trying multipliers,
 /// which a SIMD kernel reads many pixels at a time; large ones an open-addressed table.

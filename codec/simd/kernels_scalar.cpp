@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "ras/ras_samples.h"
+#include "simd/index_widths.h"
 #include "simd/kernel_sets.h"
 #include "simd/replace_words.h"
 #include "tilepress/bit_io.h"
@@ -28,14 +29,6 @@ uint32_t solid_blocks(const uint32_t* top_left, uint32_t stride, uint32_t color,
       for (uint32_t x = 0; x < kBlockSide; ++x)
         if (top_left[y * stride + x] != color) return n;
   return most;
-}
-
-void fill_widths(const uint16_t* indices, uint8_t* widths) {
-  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-    const uint16_t largest =
-        *std::max_element(indices + sub * kSubBlockPixels, indices + (sub + 1) * kSubBlockPixels);
-    widths[sub] = largest == kNotInCcd ? kRawWidth : static_cast<uint8_t>(std::bit_width(largest));
-  }
 }
 
 void find(const uint32_t* pixels, const ProbeTable& table, uint16_t* indices, uint8_t* widths) {
