@@ -12,8 +12,8 @@ namespace tilepress {
 /// The two buckets of a colour, below 128.
 struct SlotBuckets {
   /// Bit i of a bucket is the parity of the colour's bits under mask i: linear, so that byte c of 64 pixels
-  /// gives its part of 64 buckets by one product of bit matrices. Of random masks the best out of many: grays
-  /// and shades of any channels fill all buckets, and no two of them have both in common.
+  /// gives its part of 64 buckets by one product of bit matrices. Of random masks the best out of many: no
+  /// two grays, or shades of the same channels, have both buckets in common.
   static constexpr uint32_t kMasks[2][7] = {
       {0xEB6D8D01, 0xE3A0DF1B, 0xAD1FCCFA, 0xE1D088C6, 0xFF07A961, 0xD0DF7527, 0xDB89973A},
       {0x09ADE6F2, 0xB3BCEAE9, 0xAA4CAED1, 0xAB6CB08B, 0xD6E5CE85, 0xD83D9B39, 0xEF979572}};

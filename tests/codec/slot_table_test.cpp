@@ -109,6 +109,20 @@ TEST(SlotTable, FindsWhatItHolds) {
   }
 }
 
+TEST(SlotTable, NoTwoShadesOfTheSameChannelsHaveBothBucketsInCommon) {
+  for (uint32_t channels = 1; channels < 16; ++channels) {
+    uint32_t ones = 0;
+    for (uint32_t c = 0; c < 4; ++c) ones |= (channels >> c & 1) << 8 * c;
+    std::unordered_map<uint32_t, uint32_t> shades;
+    for (uint32_t shade = 0; shade < 256; ++shade) {
+      const uint32_t color = ones * shade;
+      const uint32_t both = SlotBuckets::of(color, 0) * SlotTable::kBuckets + SlotBuckets::of(color, 1);
+      EXPECT_TRUE(shades.emplace(both, shade).second)
+          << shade << " and " << shades[both] << " of " << channels;
+    }
+  }
+}
+
 TEST(SlotTable, StashesWhatFindsNoBucket) {
   const auto crowded = crowded_colors();  // of four buckets at most
   SlotTable table;

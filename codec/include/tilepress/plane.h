@@ -15,8 +15,8 @@ namespace tilepress {
 class PixelPlane {
  public:
   /// Takes a copy of `view`. 16-bit pixels are stored one per word. Returns how many pixels differ from those
-  /// it held before; of no meaning if that was a frame of another size or format, or none. Precondition: 1 ≤
-  /// width, height ≤ kMaxSurfaceSide and a modelled format.
+  /// it held before; of no meaning if that was a frame of another size or format, one referred to, or none.
+  /// Precondition: 1 ≤ width, height ≤ kMaxSurfaceSide and a modelled format.
   uint64_t assign(const SurfaceView& view);
   /// The same in steps: takes on the shape of `view`; then its rows, in ranges that begin and end at a
   /// multiple of 8 or at the bottom of the padded plane. Where a pixel of a block changes, its byte of
