@@ -1,0 +1,155 @@
+// Byte permute kernels, bits: how many a block takes in codes, and those that VDCP writes.
+#if defined(__x86_64__)
+#include "simd/byte_permute.h"
+#include "tilepress/block.h"
+
+namespace tilepress {
+namespace {
+
+/// 64 indices of up to 8 bits, or 0xFF.
+TILEPRESS_VBMI_INLINE __m512i index_bytes(const uint16_t* indices) {
+  const __m256i low = _mm512_cvtepi16_epi8(_mm512_loadu_si512(indices));
+  const __m256i high = _mm512_cvtepi16_epi8(_mm512_loadu_si512(indices + 32));
+  return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+}
+
+/// The four indices of each sub-block, the first on top, of `widths` bits each, at most 7.
+TILEPRESS_VBMI_INLINE __m512i packed_indices(const uint16_t* indices, __m512i widths) {
+  const __m512i bytes = index_bytes(indices);
+  const __m512i one = _mm512_set1_epi32(1);
+  // Pairs of indices, the first · 2^width + the second, and then pairs of pairs.
+  const __m512i by_width = _mm512_sllv_epi32(_mm512_set1_epi32(0x00010001), widths);
+  const __m512i pairs = _mm512_maddubs_epi16(_mm512_or_si512(by_width, _mm512_set1_epi32(0x01000100)), bytes);
+  const __m512i by_two_widths = _mm512_sllv_epi32(one, _mm512_add_epi32(widths, widths));
+  return _mm512_madd_epi16(pairs, _mm512_or_si512(by_two_widths, _mm512_set1_epi32(0x00010000)));
+}
+
+/// The nibbles of eight words, a byte each, those of a word from the top.
+TILEPRESS_VBMI_INLINE __m512i nibbles_of(__m256i words) {
+  const __m512i places = _mm512_set1_epi64(0x0004080C1014181C);
+  return _mm512_and_si512(_mm512_multishift_epi64_epi8(places, _mm512_cvtepu32_epi64(words)),
+                          _mm512_set1_epi8(0x0F));
+}
+
+/// Writes sub-blocks that are all indices, 64 bytes; returns the number of bits wanted. Of the nibbles of the
+/// packed words the last `widths` are joined.
+TILEPRESS_VBMI_INLINE uint32_t write_packed(__m512i packed, __m512i widths, uint8_t* out) {
+  const __m128i last = _mm512_cvtepi32_epi8(
+      _mm512_sllv_epi32(_mm512_set1_epi32(0xFF), _mm512_sub_epi32(_mm512_set1_epi32(8), widths)));
+  const auto wanted = static_cast<uint64_t>(_mm_cvtsi128_si64(last));
+  const auto then_wanted = static_cast<uint64_t>(_mm_extract_epi64(last, 1));
+  const auto count = static_cast<uint32_t>(__builtin_popcountll(wanted));  // at most 56
+  const __m512i first = _mm512_maskz_compress_epi8(wanted, nibbles_of(_mm512_castsi512_si256(packed)));
+  const __m512i then =
+      _mm512_maskz_compress_epi8(then_wanted, nibbles_of(_mm512_extracti64x4_epi64(packed, 1)));
+  const __m512i low = _mm512_or_si512(first, _mm512_maskz_expand_epi8(~uint64_t{0} << count, then));
+  const __m512i high = _mm512_maskz_compress_epi8(~(~uint64_t{0} >> count), then);
+  const __m512i two = _mm512_set1_epi16(0x0110);  // nibbles to a byte, the first on top
+  const __m256i low_bytes = _mm512_cvtepi16_epi8(_mm512_maddubs_epi16(low, two));
+  const __m256i high_bytes = _mm512_cvtepi16_epi8(_mm512_maddubs_epi16(high, two));
+  _mm512_storeu_si512(out, _mm512_inserti64x4(_mm512_castsi256_si512(low_bytes), high_bytes, 1));
+  return 4 * (count + static_cast<uint32_t>(__builtin_popcountll(then_wanted)));
+}
+
+/// Four mask bits for each of sixteen.
+TILEPRESS_VBMI_INLINE uint64_t four_of_each(uint32_t bits) {
+  return _pdep_u64(bits, 0x1111111111111111) * 15;
+}
+
+}  // namespace
+
+TILEPRESS_VBMI uint32_t code_sum_by_permutes(const uint16_t* indices, const uint8_t* lengths,
+                                             uint32_t raw_bits) {
+  const __m512i index = index_bytes(indices);
+  const __m512i bits =
+      _mm512_mask_mov_epi8(_mm512_permutexvar_epi8(index, _mm512_loadu_si512(lengths)),
+                           _mm512_movepi8_mask(index), _mm512_set1_epi8(static_cast<char>(raw_bits)));
+  const __m512i pairs = _mm512_maddubs_epi16(bits, _mm512_set1_epi8(1));
+  const __m512i sums = _mm512_madd_epi16(pairs, _mm512_set1_epi16(1));
+  return static_cast<uint32_t>(
+      _mm512_reduce_add_epi32(_mm512_min_epu32(sums, _mm512_set1_epi32(static_cast<int>(raw_bits)))));
+}
+
+// A sub-block's bits are a multiple of four: it begins with a byte or amid one. All sixteen are laid out, in
+// 16 bytes each, as they lie in memory, those that begin amid a byte with the nibble before them on top; and
+// then written one after the other, each over the zeros behind the one before.
+TILEPRESS_VBMI WrittenBlock write_sub_blocks_by_permutes(const uint32_t* pixels, const uint16_t* indices,
+                                                         const uint8_t* widths, uint32_t mark_bits,
+                                                         uint8_t* out) {
+  const auto marks_at = [&](uint32_t sub) TILEPRESS_VBMI {
+    uint64_t eight;
+    __builtin_memcpy(&eight, widths + sub, 8);
+    return _pext_u64(__builtin_bswap64(eight), 0x0101010101010101u * ((1u << mark_bits) - 1));
+  };
+  WrittenBlock written = {kLanes * 32, {marks_at(0), marks_at(8)}};
+  const __m512i big_endian =
+      _mm512_broadcast_i32x4(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
+  const __m128i width8 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(widths));
+  const __mmask16 raw = _mm_movepi8_mask(width8);  // kRawWidth alone has the top bit
+  if (raw == 0xFFFF) {
+    for (uint32_t i = 0; i < kLanes; i += 16)
+      _mm512_storeu_si512(out + 4 * i, _mm512_shuffle_epi8(_mm512_loadu_si512(pixels + i), big_endian));
+    return written;
+  }
+  const __m512i width = _mm512_cvtepu8_epi32(width8);
+  const __m512i packed = packed_indices(indices, width);
+  if (raw == 0) {
+    written.bits = write_packed(packed, width, out);
+    return written;
+  }
+  alignas(16) uint8_t nibbles[kSubBlocks];  // of each sub-block
+  _mm_store_si128(reinterpret_cast<__m128i*>(nibbles), _mm_mask_mov_epi8(width8, raw, _mm_set1_epi8(32)));
+  // Which begin amid a byte: an odd number of those before have an odd number of nibbles.
+  uint32_t amid = (_mm_movepi8_mask(_mm_slli_epi16(width8, 7)) & ~uint32_t{raw}) << 1;
+  for (uint32_t step = 1; step < kSubBlocks; step *= 2) amid ^= amid << step;
+
+  // The last nibble of each sub-block, and of the one before each that has any.
+  const __m512i fourth_of_two = _mm512_setr_epi32(3, 7, 11, 15, 19, 23, 27, 31, 0, 0, 0, 0, 0, 0, 0, 0);
+  const auto fourth_of = [&](uint32_t half) TILEPRESS_VBMI {
+    const uint32_t* words = pixels + half * kLanes / 2;
+    return _mm512_castsi512_si256(
+        _mm512_permutex2var_epi32(_mm512_loadu_si512(words), fourth_of_two, _mm512_loadu_si512(words + 16)));
+  };
+  const __m512i fourth = _mm512_inserti64x4(_mm512_castsi256_si512(fourth_of(0)), fourth_of(1), 1);
+  const __m512i last = _mm512_and_si512(_mm512_mask_mov_epi32(packed, raw, fourth), _mm512_set1_epi32(15));
+  const __mmask16 any = _mm_test_epi8_mask(width8, width8);
+  const __m512i those_before =
+      _mm512_setr_epi32(0, 1, 3, 7, 15, 31, 63, 127, 255, 511, 1023, 2047, 4095, 8191, 16383, 32767);
+  const __m512i number = _mm512_popcnt_epi32(_mm512_and_si512(those_before, _mm512_set1_epi32(any)));
+  const __m512i before = _mm512_maskz_permutexvar_epi32(static_cast<__mmask16>(amid),
+                                                        _mm512_sub_epi32(number, _mm512_set1_epi32(1)),
+                                                        _mm512_maskz_compress_epi32(any, last));
+  // The first word of each: the nibble before, and the indices.
+  const __m512i behind = _mm512_sub_epi32(_mm512_set1_epi32(32), _mm512_slli_epi32(width, 2));
+  __m512i first = _mm512_maskz_sllv_epi32(static_cast<__mmask16>(~raw), packed, behind);
+  first = _mm512_mask_srli_epi32(first, static_cast<__mmask16>(amid), first, 4);
+  first = _mm512_shuffle_epi8(_mm512_or_si512(first, _mm512_slli_epi32(before, 28)), big_endian);
+
+  const uint64_t raw_words = four_of_each(raw), amid_words = four_of_each(amid & 0xFFFF);
+  __m512i from = _mm512_setr_epi32(0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0);
+  uint32_t at = 0;  // in nibbles
+  const auto write = [&](__m128i sub_block, uint32_t sub) TILEPRESS_VBMI {
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(out + at / 2), sub_block);
+    at += nibbles[sub];
+  };
+  for (uint32_t sub = 0; sub < kSubBlocks; sub += 4) {
+    const __m512i words =
+        _mm512_maskz_loadu_epi32(static_cast<__mmask16>(raw_words >> 4 * sub), pixels + 4 * sub);
+    const __m512i moved = _mm512_mask_shrdi_epi32(words, static_cast<__mmask16>(amid_words >> 4 * sub), words,
+                                                  _mm512_bslli_epi128(words, 4), 4);
+    const __m512i firsts = _mm512_maskz_permutexvar_epi32(0x1111, from, first);
+    const __m512i four = _mm512_or_si512(_mm512_shuffle_epi8(moved, big_endian), firsts);
+    write(_mm512_castsi512_si128(four), sub);
+    write(_mm512_extracti32x4_epi32(four, 1), sub + 1);
+    write(_mm512_extracti32x4_epi32(four, 2), sub + 2);
+    write(_mm512_extracti32x4_epi32(four, 3), sub + 3);
+    from = _mm512_add_epi32(from, _mm512_set1_epi32(4));
+  }
+  // Raw pixels that begin amid a byte end in a byte that is not among their sixteen.
+  if ((raw & amid & 0x8000) != 0) out[at / 2] = static_cast<uint8_t>(pixels[kLanes - 1] << 4);
+  written.bits = 4 * at;
+  return written;
+}
+
+}  // namespace tilepress
+#endif
