@@ -259,10 +259,11 @@ void LfcCollector::count_rest(const Place* places, FoundSlots found, uint32_t fr
   }
 }
 
-/// Takes misses up to the first that changes the members, if one does; true then. `count_to(lane)` counts the
-/// hits before `lane`, which must be done before members change.
+/// Takes misses up to the first that changes the members, if one does; true then. `begins` are those of a
+/// block of misses. `count_to(lane)` counts the hits before `lane`, which must be done before members change.
 template <class CountTo>
-bool LfcCollector::take_misses(const uint32_t* pixels, uint64_t misses, const CountTo& count_to) {
+bool LfcCollector::take_misses(const uint32_t* pixels, uint64_t misses, uint64_t begins,
+                               const CountTo& count_to) {
   if (!full()) {
     const auto lane = static_cast<uint32_t>(std::countr_zero(misses));
     count_to(lane + 1);
@@ -272,7 +273,7 @@ bool LfcCollector::take_misses(const uint32_t* pixels, uint64_t misses, const Co
   std::array<uint32_t, kLanes + 16> packed;
   const bool all = misses == ~uint64_t{0};  // then there is nothing to pack
   const uint32_t* colors = all ? pixels : packed.data();
-  uint64_t alike = all ? ~kernels().run_begins(pixels) | (pixels[0] == tail_color_ ? 1 : 0)
+  uint64_t alike = all ? ~begins | (pixels[0] == tail_color_ ? 1 : 0)
                        : kernels().compact(pixels, misses, tail_color_, packed.data());
   while (misses != 0) {
     const uint32_t settles = first_to_settle(alike), left = bit_count(misses);
@@ -297,6 +298,13 @@ bool LfcCollector::take_misses(const uint32_t* pixels, uint64_t misses, const Co
 template <class Place, class Find>
 void LfcCollector::take_block(const uint32_t* pixels, Place* places, FoundSlots found, const Find& find) {
   samples_ += kLanes;
+  if (found.known == 0 && found.begins == ~uint64_t{0} && full() && pixels[0] != tail_color_) {
+    // Each takes the tail from the one before it.
+    if (listener_ != nullptr) listener_->see_pixels(pixels, kLanes, 0);
+    tail_color_ = pixels[kLanes - 1];
+    tail_count_ = 1;
+    return;
+  }
   if (found.known == ~uint64_t{0} ||
       (full() && listener_ == nullptr && take_few_misses(pixels, ~found.known)))
     return count_rest(places, found, 0);
@@ -306,7 +314,8 @@ void LfcCollector::take_block(const uint32_t* pixels, Place* places, FoundSlots 
       from = lane;
     };
     const uint64_t misses = ~found.known & ~uint64_t{0} << from;
-    if (misses == 0 || !take_misses(pixels, misses, count_to)) return count_rest(places, found, from);
+    if (misses == 0 || !take_misses(pixels, misses, found.begins, count_to))
+      return count_rest(places, found, from);
   }
 }
 
@@ -321,7 +330,8 @@ void LfcCollector::see_block(const uint32_t* pixels) {
   }
   uint32_t places[kLanes];
   const auto find = [&]() -> FoundSlots {
-    return {kernels().members(pixels, table_, crowded_colors_.data(), crowded_, places), ~uint64_t{0}};
+    const uint64_t known = kernels().members(pixels, table_, crowded_colors_.data(), crowded_, places);
+    return {known, known == 0 ? kernels().run_begins(pixels) : ~uint64_t{0}};
   };
   take_block(pixels, places, find(), find);
 }

@@ -84,7 +84,7 @@ class LfcCollector {
   template <class Place>
   void count_rest(const Place* places, FoundSlots found, uint32_t from);
   template <class CountTo>
-  bool take_misses(const uint32_t* pixels, uint64_t misses, const CountTo& count_to);
+  bool take_misses(const uint32_t* pixels, uint64_t misses, uint64_t begins, const CountTo& count_to);
   template <class Place, class Find>
   void take_block(const uint32_t* pixels, Place* places, FoundSlots found, const Find& find);
 

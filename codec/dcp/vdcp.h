@@ -34,16 +34,18 @@ constexpr uint32_t kMaxPairedBits = kMaxBitsPerCall / (2 * kSubBlockPixels);
 /// Widths of indices that Kernels::write_sub_blocks writes.
 constexpr uint32_t kMaxWrittenBits = 7;
 
+/// Widths of a block that is not looked up.
+inline constexpr auto kAllRawWidths = [] {
+  std::array<uint8_t, kSubBlocks> raw;
+  raw.fill(kRawWidth);
+  return raw;
+}();
+
 /// Writes a block: per sub-block `csb_width` ≤ 5 CSB bits holding the width, or all ones for a raw one.
 /// `look_up` = false: all raw. Indices have at most `index_bits` bits.
 inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t index_bits, uint32_t pixel_bits,
                         uint32_t csb_width, BitWriter& payload, BitWriter& csb) {
-  static constexpr auto kAllRaw = [] {
-    std::array<uint8_t, kSubBlocks> raw;
-    raw.fill(kRawWidth);
-    return raw;
-  }();
-  const uint8_t* widths = look_up ? block.ccd_widths : kAllRaw.data();
+  const uint8_t* widths = look_up ? block.ccd_widths : kAllRawWidths.data();
   const uint32_t half_bits = kSubBlocks / 2 * csb_width;
   if (pixel_bits == 32 && index_bits <= kMaxWrittenBits && kernels().byte_permutes)
     if (uint8_t* out = payload.at_byte(kMaxRawBlockBits / 8); out != nullptr) {

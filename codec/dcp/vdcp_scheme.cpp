@@ -35,6 +35,19 @@ class VdcpEncoder final : public DcpFamilyEncoder {
     const uint32_t width = csb_width(index_bits_);
     vdcp_encode(block, active(), index_bits_, pixel_bits_, width, payload, csb);
   }
+  StoredBlock store(const BlockContext& block, std::span<uint8_t> slot,
+                    std::span<uint8_t> csb) const override {
+    if (off_ || pixel_bits_ != 32 || index_bits_ > kMaxWrittenBits || !kernels().byte_permutes)
+      return BlockEncoder::store(block, slot, csb);
+    const uint32_t width = csb_width(index_bits_), half_bits = kSubBlocks / 2 * width;
+    const WrittenBlock written =
+        kernels().write_sub_blocks(block.pixels, block.ccd_indices,
+                                   active() ? block.ccd_widths : kAllRawWidths.data(), width, slot.data());
+    const uint64_t marks = (written.marks[0] << half_bits | written.marks[1]) << (64 - 2 * half_bits);
+    const uint64_t bytes = bit_io::big_endian(marks);
+    std::memcpy(csb.data(), &bytes, sizeof bytes);
+    return {written.bits, written.clean_bytes};
+  }
 };
 
 class VdcpDecoder final : public DcpFamilyDecoder {

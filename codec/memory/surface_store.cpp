@@ -96,18 +96,13 @@ uint32_t SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& bloc
   last_ = uint64_t{block.by} * blocks_x_ + block.bx;
   uint8_t* slot = payload_ + last_ * slot_bytes_;
   if (last_ + 1 < blocks_) __builtin_prefetch(slot + slot_bytes_, 1);  // most often the next
-  BitWriter payload({slot, slot_bytes_});
-  BitWriter csb(last_csb_);
-  encoder.encode(block, payload, csb);
-  payload.flush();
-  csb.flush();
-  assert(!payload.overflowed() && !csb.overflowed() && csb.bit_count() == csb_bits_);
-  const auto payload_bits = static_cast<uint32_t>(payload.bit_count());
-  const size_t used_bytes = (payload_bits + 7) / 8, used_before = (block_bits_[last_] + 7u) / 8;
-  if (used_bytes < used_before) std::memset(slot + used_bytes, 0, used_before - used_bytes);
-  block_bits_[last_] = static_cast<uint16_t>(payload_bits);
+  const StoredBlock stored = encoder.store(block, {slot, slot_bytes_}, last_csb_);
+  const size_t used_before = (block_bits_[last_] + 7u) / 8;
+  if (stored.clean_bytes < used_before)
+    std::memset(slot + stored.clean_bytes, 0, used_before - stored.clean_bytes);
+  block_bits_[last_] = static_cast<uint16_t>(stored.payload_bits);
   put_csb(last_, 1);
-  return payload_bits;
+  return stored.payload_bits;
 }
 
 void SurfaceStore::put_again(uint32_t bx, uint32_t bx_end, uint32_t by) {
@@ -129,6 +124,7 @@ void SurfaceStore::put_again(uint32_t bx, uint32_t bx_end, uint32_t by) {
 
 /// The CSB bits of the block put last, for `count` blocks from number `first` on.
 void SurfaceStore::put_csb(uint64_t first, uint32_t count) {
+  if (csb_bits_ == 0) return;  // then there is no plane
   if (const size_t bytes = csb_bits_ / 8; csb_bits_ % 8 == 0)
     return repeat_bytes(last_csb_.data(), bytes, csb_.data() + first * bytes, count);
   for (uint64_t number = first; number < first + count; ++number)

@@ -25,8 +25,10 @@ struct FewColors {
 };
 
 struct FoundSlots {
-  uint64_t known;   ///< bit i: pixel i has a slot
-  uint64_t begins;  ///< bit i: pixel i is of another slot than the one before it; bit 0 is set
+  uint64_t known;  ///< bit i: pixel i has a slot
+  /// Bit i: pixel i is of another slot than the one before it or, if no pixel has any, of another colour. Bit
+  /// 0 is set.
+  uint64_t begins;
 };
 
 /// What load_slots looks up, and where to.
@@ -40,8 +42,9 @@ struct SlotLookups {
 };
 
 struct WrittenBlock {
-  uint32_t bits;      ///< written
-  uint64_t marks[2];  ///< of eight sub-blocks each, the low bits of their widths, the first on top
+  uint32_t bits;         ///< written
+  uint32_t clean_bytes;  ///< from the first on: these bits, and zeros to the end of a line of 64 bytes
+  uint64_t marks[2];     ///< of eight sub-blocks each, the low bits of their widths, the first on top
 };
 
 struct Smallest {
@@ -96,9 +99,8 @@ struct Kernels {
   void (*pack)(const uint16_t* indices, const uint8_t* widths, uint32_t* packed);
 
   /// Writes a block of 32-bit pixels as VDCP does: of each sub-block its indices, as many bits each as its
-  /// width says, or its pixels; from the most significant bit of out[0] on. Widths up to 7. What follows in
-  /// the last byte is 0, and up to 64 bytes behind may become so, within the 256 of a raw block. A mark has
-  /// `mark_bits` ≤ 7.
+  /// width says, or its pixels; from the most significant bit of out[0] on, 256 bytes. Widths up to 7. What
+  /// follows becomes 0 for WrittenBlock::clean_bytes at least. A mark has `mark_bits` ≤ 7.
   WrittenBlock (*write_sub_blocks)(const uint32_t* pixels, const uint16_t* indices, const uint8_t* widths,
                                    uint32_t mark_bits, uint8_t* out);
 

@@ -68,10 +68,15 @@ TILEPRESS_VBMI_INLINE Keys keys_of(const __m512i (&words)[4]) {
   return keys;
 }
 
-TILEPRESS_VBMI_INLINE Keys keys_of(const uint32_t* pixels) {
-  __m512i words[4];
-  for (uint32_t i = 0; i < 4; ++i) words[i] = _mm512_loadu_si512(pixels + 16 * i);
-  return keys_of(words);
+/// A block in traversal order.
+struct Words {
+  __m512i of[4];
+};
+
+TILEPRESS_VBMI_INLINE Words words_of(const uint32_t* pixels) {
+  Words words;
+  for (uint32_t i = 0; i < 4; ++i) words.of[i] = _mm512_loadu_si512(pixels + 16 * i);
+  return words;
 }
 
 /// Loads a block in traversal order; true if all pixels are equal.
@@ -157,9 +162,23 @@ TILEPRESS_VBMI_INLINE Slots find(const Keys& keys, const SlotTable& table) {
   return {slots, all};
 }
 
-TILEPRESS_VBMI_INLINE FoundSlots find_slots(const Keys& keys, const SlotTable& table, uint8_t* slots) {
+// Neighbours are compared in registers: to load what was just stored elsewhere than where it was stored
+// waits.
+TILEPRESS_VBMI_INLINE uint64_t run_begins(const __m512i (&words)[4]) {
+  uint64_t begins = 1;
+  for (uint32_t i = 0; i < 4; ++i) {
+    const __m512i before = _mm512_alignr_epi32(words[i], words[i == 0 ? 0 : i - 1], 15);
+    const __mmask16 differs = _mm512_cmpneq_epi32_mask(words[i], before);
+    begins |= uint64_t{i == 0 ? differs & 0xFFFEu : differs} << 16 * i;
+  }
+  return begins;
+}
+
+TILEPRESS_VBMI_INLINE FoundSlots find_slots(const __m512i (&words)[4], const Keys& keys,
+                                            const SlotTable& table, uint8_t* slots) {
   const Slots found = find(keys, table);
   _mm512_storeu_si512(slots, found.slots);
+  if (found.known == 0) return {0, run_begins(words)};
   static constexpr struct Before {
     alignas(64) uint8_t at[64];
     constexpr Before() : at() {
@@ -212,12 +231,13 @@ TILEPRESS_VBMI_INLINE void index_slots(const Keys& keys, const SlotTable& table,
 }
 
 TILEPRESS_VBMI FoundSlots find_slots(const uint32_t* pixels, const SlotTable& table, uint8_t* slots) {
-  return find_slots(keys_of(pixels), table, slots);
+  const Words words = words_of(pixels);
+  return find_slots(words.of, keys_of(words.of), table, slots);
 }
 
 TILEPRESS_VBMI void index_slots(const uint32_t* pixels, const SlotTable& table, uint16_t* indices,
                                 uint8_t* widths) {
-  index_slots(keys_of(pixels), table, indices, widths);
+  index_slots(keys_of(words_of(pixels).of), table, indices, widths);
 }
 
 TILEPRESS_VBMI bool load_slots(const uint32_t* top_left, uint32_t stride, uint32_t* pixels,
@@ -226,22 +246,12 @@ TILEPRESS_VBMI bool load_slots(const uint32_t* top_left, uint32_t stride, uint32
   if (load(top_left, stride, pixels, words)) return true;
   const Keys keys = keys_of(words);
   if (lookups.dictionary != nullptr) index_slots(keys, *lookups.dictionary, lookups.indices, lookups.widths);
-  if (lookups.members != nullptr) lookups.found = find_slots(keys, *lookups.members, lookups.slots);
+  if (lookups.members != nullptr) lookups.found = find_slots(words, keys, *lookups.members, lookups.slots);
   return false;
 }
 
-// Neighbours are compared in registers: to load what was just stored elsewhere than where it was stored
-// waits.
 TILEPRESS_VBMI uint64_t run_begins(const uint32_t* pixels) {
-  __m512i before = _mm512_loadu_si512(pixels);
-  uint64_t begins = 1;
-  for (uint32_t i = 0; i < kLanes; i += 16) {
-    const __m512i now = _mm512_loadu_si512(pixels + i);
-    const __mmask16 differs = _mm512_cmpneq_epi32_mask(now, _mm512_alignr_epi32(now, before, 15));
-    begins |= uint64_t{i == 0 ? differs & 0xFFFEu : differs} << i;
-    before = now;
-  }
-  return begins;
+  return run_begins(words_of(pixels).of);
 }
 
 TILEPRESS_VBMI uint64_t compact(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out) {

@@ -6,6 +6,8 @@
 namespace tilepress {
 namespace {
 
+constexpr uint32_t kLineBytes = 64;
+
 /// 64 indices of up to 8 bits, or 0xFF.
 TILEPRESS_VBMI_INLINE __m512i index_bytes(const uint16_t* indices) {
   const __m256i low = _mm512_cvtepi16_epi8(_mm512_loadu_si512(indices));
@@ -81,7 +83,7 @@ TILEPRESS_VBMI WrittenBlock write_sub_blocks_by_permutes(const uint32_t* pixels,
     __builtin_memcpy(&eight, widths + sub, 8);
     return _pext_u64(__builtin_bswap64(eight), 0x0101010101010101u * ((1u << mark_bits) - 1));
   };
-  WrittenBlock written = {kLanes * 32, {marks_at(0), marks_at(8)}};
+  WrittenBlock written = {kLanes * 32, kLanes * 4, {marks_at(0), marks_at(8)}};
   const __m512i big_endian =
       _mm512_broadcast_i32x4(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
   const __m128i width8 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(widths));
@@ -95,10 +97,18 @@ TILEPRESS_VBMI WrittenBlock write_sub_blocks_by_permutes(const uint32_t* pixels,
   const __m512i packed = packed_indices(indices, width);
   if (raw == 0) {
     written.bits = write_packed(packed, width, out);
+    written.clean_bytes = kLineBytes;
     return written;
   }
   alignas(16) uint8_t nibbles[kSubBlocks];  // of each sub-block
-  _mm_store_si128(reinterpret_cast<__m128i*>(nibbles), _mm_mask_mov_epi8(width8, raw, _mm_set1_epi8(32)));
+  const __m128i nibbles8 = _mm_mask_mov_epi8(width8, raw, _mm_set1_epi8(32));
+  _mm_store_si128(reinterpret_cast<__m128i*>(nibbles), nibbles8);
+  const __m128i halves = _mm_sad_epu8(nibbles8, _mm_setzero_si128());
+  const auto all_nibbles = static_cast<uint32_t>(_mm_cvtsi128_si32(halves) + _mm_extract_epi32(halves, 2));
+  const uint32_t last_line = all_nibbles / 2 / kLineBytes * kLineBytes;  // less than all are raw
+  _mm512_storeu_si512(out + last_line, _mm512_setzero_si512());
+  written.bits = 4 * all_nibbles;
+  written.clean_bytes = last_line + kLineBytes;
   // Which begin amid a byte: an odd number of those before have an odd number of nibbles.
   uint32_t amid = (_mm_movepi8_mask(_mm_slli_epi16(width8, 7)) & ~uint32_t{raw}) << 1;
   for (uint32_t step = 1; step < kSubBlocks; step *= 2) amid ^= amid << step;
@@ -147,7 +157,6 @@ TILEPRESS_VBMI WrittenBlock write_sub_blocks_by_permutes(const uint32_t* pixels,
   }
   // Raw pixels that begin amid a byte end in a byte that is not among their sixteen.
   if ((raw & amid & 0x8000) != 0) out[at / 2] = static_cast<uint8_t>(pixels[kLanes - 1] << 4);
-  written.bits = 4 * at;
   return written;
 }
 

@@ -185,6 +185,7 @@ FoundSlots find_slots_plainly(const uint32_t* pixels, const SlotTable& table, ui
     found.known |= uint64_t{slots[i] != SlotTable::kAbsent} << i;
     if (i > 0) found.begins |= uint64_t{slots[i] != slots[i - 1]} << i;
   }
+  if (found.known == 0) found.begins = run_begins(pixels);
   return found;
 }
 
@@ -232,8 +233,10 @@ WrittenBlock write_sub_blocks_plainly(const uint32_t* pixels, const uint16_t* in
     const uint8_t width = widths[i / kSubBlockPixels];
     width == kRawWidth ? bits.put(pixels[i], 32) : bits.put(indices[i], width);
   }
-  written.bits = static_cast<uint32_t>(bits.bit_count());
   bits.flush();
+  written.bits = static_cast<uint32_t>(bits.bit_count());
+  written.clean_bytes = std::min(kMaxRawBlockBits / 8, (written.bits / 512 + 1) * 64);
+  std::fill(out + (written.bits + 7) / 8, out + written.clean_bytes, uint8_t{0});
   return written;
 }
 

@@ -147,6 +147,7 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
     kernels().pack(indices, widths, words);
     const uint32_t limit = dice.below(11);
     uint8_t written[256], other_written[256];
+    std::ranges::fill(written, uint8_t{0xAA});
     uint8_t few_widths[16];  // and indices that fit
     uint16_t few_indices[64];
     const uint32_t raw_share = dice.below(5);
@@ -193,11 +194,13 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
       ASSERT_EQ(other_smallest.smallest, smallest.smallest);
       ASSERT_EQ(other_smallest.second, smallest.second);
       kernels().pack(indices, widths, other_words);
+      std::ranges::fill(other_written, uint8_t{0xBB});
       const WrittenBlock other =
           kernels().write_sub_blocks(pixels.data(), few_indices, few_widths, mark_bits, other_written);
       ASSERT_EQ(other.bits, block.bits);
+      ASSERT_EQ(other.clean_bytes, block.clean_bytes);
       ASSERT_TRUE(std::ranges::equal(other.marks, block.marks));
-      ASSERT_TRUE(std::equal(written, written + (block.bits + 7) / 8, other_written));
+      ASSERT_TRUE(std::equal(written, written + block.clean_bytes, other_written));
       std::array<uint32_t, 64> other_counted{};
       ASSERT_EQ(kernels().count_slots(slots, mask, other_counted.data()), left);
       ASSERT_EQ(other_counted, counted);

@@ -1,6 +1,7 @@
 // Scheme: what every compression scheme offers, one block at a time: measure, encode, decode.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -54,6 +55,12 @@ struct SchemeNeeds {
   bool raster_to_encode = false;  ///< encode() reads BlockContext::block
 };
 
+/// A block in memory of its own.
+struct StoredBlock {
+  uint32_t payload_bits;
+  uint32_t clean_bytes;  ///< from the first on these hold the payload and zeros, nothing from before
+};
+
 /// Encoder side. begin_frame() once per frame, then any block in any order.
 /// encode() writes exactly measure() payload bits and csb_bits() CSB bits.
 class BlockEncoder {
@@ -69,6 +76,19 @@ class BlockEncoder {
   /// Payload bits of the block.
   virtual uint32_t measure(const BlockContext& block) const = 0;
   virtual void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const = 0;
+  /// The same bits from the beginning of memory of the block's own: `slot` as large as a raw block at least,
+  /// and in whole lines of 64 bytes, `csb` at least 8 bytes and as many as csb_bits() want, its last byte
+  /// filled up with zeros.
+  virtual StoredBlock store(const BlockContext& block, std::span<uint8_t> slot,
+                            std::span<uint8_t> csb) const {
+    BitWriter payload(slot), marks(csb);
+    encode(block, payload, marks);
+    payload.flush();
+    marks.flush();
+    assert(!payload.overflowed() && !marks.overflowed() && marks.bit_count() == csb_bits());
+    const auto bits = static_cast<uint32_t>(payload.bit_count());
+    return {bits, (bits + 7) / 8};
+  }
   /// Adds what goes beyond the common columns for a block whose payload has `payload_bits`.
   virtual void account(const BlockContext&, uint32_t /*payload_bits*/, SchemeStatistics&) const {}
 };

@@ -3,6 +3,7 @@
 
 #include "surface_samples.h"
 #include "tilepress/scheme.h"
+#include "tilepress/simd.h"
 #include "tilepress/surface_reader.h"
 
 namespace tilepress {
@@ -91,6 +92,37 @@ TEST_P(EverySchemeTest, TheReaderFetchesTheBurstsThatTheEngineCounted) {
       for (const uint16_t bits : surface.block_bits) payload_bits += bits;
       EXPECT_EQ(payload_bits, statistics.payload_bits);
     }
+}
+
+/// The same frames into one surface, or into a new one each time.
+TEST_P(EverySchemeTest, MemoryHoldsTheSameOnEveryTargetAndNothingOfFramesBefore) {
+  const std::string_view target = simd_target();
+  std::vector<SampleFrame> frames;
+  for (uint32_t seed = 1; seed <= 6; ++seed)
+    frames.push_back(mixed_frame(67, 33, PixelFormat::kRgba8, 1 + seed / 2));  // some in a row are alike
+  std::vector<CompressedSurface> wanted;
+  for (const std::string_view each : simd_targets()) {
+    SCOPED_TRACE(each);
+    force_simd_target(each);
+    std::string error;
+    SurfaceEngine into_one({*parse_scheme(GetParam(), error)}, {}),
+        into_new({*parse_scheme(GetParam(), error)}, {});
+    CompressedSurface one;
+    FrameStatistics out;
+    for (size_t i = 0; i < frames.size(); ++i) {
+      CompressedSurface fresh;
+      into_one.process(frames[i].view(), out, std::span(&one, 1));
+      into_new.process(frames[i].view(), out, std::span(&fresh, 1));
+      if (wanted.size() == i) wanted.push_back(fresh);
+      for (const CompressedSurface* surface : {&one, &fresh}) {
+        EXPECT_EQ(surface->payload, wanted[i].payload) << "frame " << i;
+        EXPECT_EQ(surface->csb, wanted[i].csb) << "frame " << i;
+        EXPECT_EQ(surface->tables, wanted[i].tables) << "frame " << i;
+        EXPECT_EQ(surface->block_bits, wanted[i].block_bits) << "frame " << i;
+      }
+    }
+  }
+  force_simd_target(target);
 }
 
 TEST_P(EverySchemeTest, DamagedSurfacesAreReadOrRefusedButNeverWander) {
