@@ -3,6 +3,7 @@
 #include "tilepress/surface_engine.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <chrono>
@@ -15,6 +16,7 @@
 #include "ras/ras_memo.h"
 #include "row_prefetch.h"
 #include "simd/kernels.h"
+#include "solid_blocks.h"
 #include "statistics/frame_metrics.h"
 #include "tilepress/scheme.h"
 #include "tilepress/tiler.h"
@@ -31,7 +33,7 @@ struct Lane {
   const uint8_t* ccd_widths = nullptr;
   uint32_t csb_bits = 0;
   SurfaceStore store;
-  SchemeStatistics last;  ///< what the block measured last added
+  std::array<SchemeStatistics, SolidBlocks::kPlaces> solids;  ///< what a block of each colour kept adds
 };
 
 /// Adds the time of a step to that of the frame.
@@ -70,13 +72,10 @@ struct SurfaceEngine::State {
   bool needs_ras = false, needs_ras_ycocg = false, needs_raster = false, needs_raster_to_encode = false;
   bool needs_whole_frame = false;
   bool compares_frames = false;  ///< with the one before, so that a copy of it is needed
-  bool can_repeat = true;        ///< a block of the colour of the one before counts like that one
-  /// The block visited last, if it was of one colour, and how often it came again.
-  struct {
-    bool solid = false;
-    uint32_t color = 0;
-    uint64_t repeats = 0;
-  } last;
+  bool can_repeat = true;        ///< blocks of one colour count like the first of that colour
+  SolidBlocks solids;
+  bool last_solid = false;  ///< the block visited last was of one colour,
+  uint32_t last_place = 0;  ///< which is kept there
   /// Pixels of one colour in a row that the collectors have not seen yet.
   struct {
     uint32_t color = 0, count = 0;
@@ -102,8 +101,9 @@ struct SurfaceEngine::State {
   void prefetch_beside(uint32_t bx, uint32_t bx_end, uint32_t by);
   void advance();
   void visit_block(uint32_t bx, uint32_t by, const FormatTraits& format);
-  uint32_t repeat_blocks(uint32_t bx, uint32_t bx_end, uint32_t by);
-  void settle_repeats();
+  uint32_t repeat_last(uint32_t bx, uint32_t bx_end, uint32_t by);
+  void repeat_solid(uint32_t place, uint32_t bx, uint32_t count, uint32_t by);
+  void settle_repeats(uint32_t place);
   uint32_t pixels_inside(uint32_t bx, uint32_t blocks, uint32_t by) const;
   void collect_solid(uint32_t count, uint32_t color);
   void collect(const BlockContext& block);
@@ -164,7 +164,8 @@ void SurfaceEngine::State::begin_frame() {
   ras_memo.begin_frame(now.blocks(), has_before, needs_ras, needs_ras_ycocg);
   if (needs_whole_frame) take_rows(0, now.blocks_y());
   for (const auto& collector : collectors) collector->begin_frame(ordinal);
-  last.solid = false;
+  solids.clear();
+  last_solid = false;
   meter_looks = false;
   if (options.frame_metrics) {
     meter.begin_frame(size_t{now.width()} * now.height());
@@ -251,27 +252,31 @@ void SurfaceEngine::State::collect(const BlockContext& block) {
   for (const auto& collector : collectors) collector->see_all(pixels, count, whole_few);
 }
 
-/// Blocks of one colour, as the last was, come in rows: each counts like that one. Returns how many from
-/// `bx` on do.
-uint32_t SurfaceEngine::State::repeat_blocks(uint32_t bx, uint32_t bx_end, uint32_t by) {
+/// Blocks of one colour, as the last was, come in rows. Returns how many from `bx` on are like that one.
+uint32_t SurfaceEngine::State::repeat_last(uint32_t bx, uint32_t bx_end, uint32_t by) {
   const uint32_t* top_left = now.row(by * kBlockSide) + bx * kBlockSide;
-  const uint32_t count = kernels().solid_blocks(top_left, now.stride(), last.color, bx_end - bx);
-  if (count == 0) return 0;
-  last.repeats += count;
-  collect_solid(pixels_inside(bx, count, by), last.color);
-  if (!surfaces.empty())
-    for (Lane& lane : lanes) lane.store.put_again(bx, bx + count, by);
-  if (block_bits != nullptr)
-    for (size_t i = 0; i < lanes.size(); ++i)
-      std::fill_n(block_bits->schemes[i].begin() + (ptrdiff_t{by} * block_bits->blocks_x + bx), count,
-                  static_cast<uint16_t>(lanes[i].last.payload_bits));
+  const uint32_t color = solids.color(last_place);
+  const uint32_t count = kernels().solid_blocks(top_left, now.stride(), color, bx_end - bx);
+  if (count != 0) repeat_solid(last_place, bx, count, by);
   return count;
 }
 
-void SurfaceEngine::State::settle_repeats() {
-  if (last.repeats == 0) return;
-  for (size_t i = 0; i < lanes.size(); ++i) out->schemes[i].add(lanes[i].last, last.repeats);
-  last.repeats = 0;
+/// `count` blocks side by side of the colour kept at `place`.
+void SurfaceEngine::State::repeat_solid(uint32_t place, uint32_t bx, uint32_t count, uint32_t by) {
+  solids.repeat(place, count);
+  collect_solid(pixels_inside(bx, count, by), solids.color(place));
+  if (!surfaces.empty())
+    for (Lane& lane : lanes) lane.store.put_again(place, bx, bx + count, by);
+  if (block_bits != nullptr)
+    for (size_t i = 0; i < lanes.size(); ++i)
+      std::fill_n(block_bits->schemes[i].begin() + (ptrdiff_t{by} * block_bits->blocks_x + bx), count,
+                  static_cast<uint16_t>(lanes[i].solids[place].payload_bits));
+}
+
+void SurfaceEngine::State::settle_repeats(uint32_t place) {
+  const uint64_t repeats = solids.take_repeats(place);
+  if (repeats == 0) return;
+  for (size_t i = 0; i < lanes.size(); ++i) out->schemes[i].add(lanes[i].solids[place], repeats);
 }
 
 /// Whether the block has few colours, into `few`. Looking in vain costs as much as it saves otherwise, so
@@ -289,7 +294,6 @@ bool SurfaceEngine::State::split_few(const uint32_t* pixels) {
 }
 
 void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTraits& format) {
-  settle_repeats();
   const uint32_t* top_left = now.row(by * kBlockSide) + bx * kBlockSide;
   alignas(64) uint32_t pixels[kBlockPixels];
   Block block;
@@ -300,11 +304,16 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
   } else {
     context.uniform = kernels().load_traversal(top_left, now.stride(), pixels);
   }
+  last_solid = context.uniform;
+  if (context.uniform) {
+    last_place = SolidBlocks::place_of(pixels[0]);
+    if (can_repeat && solids.holds(last_place, pixels[0])) return repeat_solid(last_place, bx, 1, by);
+    settle_repeats(last_place);
+    solids.keep(last_place, pixels[0]);
+  }
   is_few = wants_few && !context.uniform && split_few(pixels);
-  last.solid = context.uniform;
-  last.color = pixels[0];
   if (needs_raster || (needs_raster_to_encode && !surfaces.empty())) now.load_block(bx, by, block);
-  for (size_t i = loads_slots ? 1 : 0; i < collectors.size(); ++i)
+  for (size_t i = loads_slots && !context.uniform ? 1 : 0; i < collectors.size(); ++i)
     if (collectors[i]->wanted && collectors[i]->ccd() != nullptr)
       collectors[i]->look_up(pixels, context.uniform, is_few ? &few : nullptr);
   if (needs_ras) context.ras_bits = ras_bits(context, top_left, format, false);
@@ -315,8 +324,11 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
     context.ccd_widths = lane.ccd_widths;
     const uint32_t payload_bits =
         surfaces.empty() ? lane.encoder->measure(context) : lane.store.put(*lane.encoder, context);
-    if (context.uniform) lane.last = {};
-    SchemeStatistics& added = context.uniform ? lane.last : out->schemes[i];
+    SchemeStatistics& added = context.uniform ? lane.solids[last_place] : out->schemes[i];
+    if (context.uniform) {
+      added = {};
+      if (!surfaces.empty()) lane.store.keep(last_place);
+    }
     added.payload_bits += payload_bits;
     added.bursts += (payload_bits + burst_round) >> burst_shift;
     lane.encoder->account(context, payload_bits, added);
@@ -324,7 +336,7 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
       ++added.checked_blocks;
       added.mismatched_blocks += !check.round_trip(*lane.encoder, *lane.decoder, context, payload_bits);
     }
-    if (context.uniform) out->schemes[i].add(lane.last, 1);
+    if (context.uniform) out->schemes[i].add(added, 1);
     if (block_bits != nullptr)
       block_bits->schemes[i][size_t{by} * block_bits->blocks_x + bx] = static_cast<uint16_t>(payload_bits);
   }
@@ -345,7 +357,7 @@ void SurfaceEngine::State::advance() {
                         [&](uint32_t bx, uint32_t bx_end, uint32_t by) {
                           if (referred) prefetch_beside(bx, bx_end, by);
                           while (bx < bx_end) {
-                            if (last.solid && can_repeat) bx += repeat_blocks(bx, bx_end, by);
+                            if (last_solid && can_repeat) bx += repeat_last(bx, bx_end, by);
                             if (bx < bx_end) visit_block(bx++, by, format);
                           }
                         });
@@ -353,7 +365,7 @@ void SurfaceEngine::State::advance() {
 }
 
 void SurfaceEngine::State::end_frame() {
-  settle_repeats();
+  for (uint32_t place = 0; place < SolidBlocks::kPlaces; ++place) settle_repeats(place);
   settle_run();
   for (const auto& collector : collectors) collector->end_frame();
   const uint64_t blocks = now.blocks();

@@ -36,8 +36,9 @@ class Collector {
 
   /// Of a block in traversal order: indices() and widths(), see BlockContext. Precondition: ccd() is there.
   void look_up(const uint32_t* pixels, bool uniform, const FewColors* few);
-  /// As Kernels::load_traversal; and look_up() if there is a ccd() and it is wanted. What see_all() finds out
-  /// about the pixels is found at once: unless they are all equal, that is to come next.
+  /// As Kernels::load_traversal; and look_up(), unless all are equal, if there is a ccd() and it is wanted.
+  /// What see_all() finds out about the pixels is found at once: unless they are all equal, that is to come
+  /// next.
   bool load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels);
 
   const Fvc& fvc() const { return fvc_; }

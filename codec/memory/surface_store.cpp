@@ -93,22 +93,24 @@ void SurfaceStore::begin_frame(const SchemeSpec& spec, const ModelOptions& optio
 }
 
 uint32_t SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& block) {
-  last_ = uint64_t{block.by} * blocks_x_ + block.bx;
-  uint8_t* slot = payload_ + last_ * slot_bytes_;
-  if (last_ + 1 < blocks_) __builtin_prefetch(slot + slot_bytes_, 1);  // most often the next
-  const StoredBlock stored = encoder.store(block, {slot, slot_bytes_}, last_csb_);
-  const size_t used_before = (block_bits_[last_] + 7u) / 8;
+  last_.number = uint64_t{block.by} * blocks_x_ + block.bx;
+  uint8_t* slot = payload_ + last_.number * slot_bytes_;
+  if (last_.number + 1 < blocks_) __builtin_prefetch(slot + slot_bytes_, 1);  // most often the next
+  const StoredBlock stored = encoder.store(block, {slot, slot_bytes_}, last_.csb);
+  uint16_t& bits = block_bits_[last_.number];
+  const size_t used_before = (bits + 7u) / 8;
   if (stored.clean_bytes < used_before)
     std::memset(slot + stored.clean_bytes, 0, used_before - stored.clean_bytes);
-  block_bits_[last_] = static_cast<uint16_t>(stored.payload_bits);
-  put_csb(last_, 1);
+  bits = static_cast<uint16_t>(stored.payload_bits);
+  put_csb(last_, last_.number, 1);
   return stored.payload_bits;
 }
 
-void SurfaceStore::put_again(uint32_t bx, uint32_t bx_end, uint32_t by) {
+void SurfaceStore::put_again(uint32_t place, uint32_t bx, uint32_t bx_end, uint32_t by) {
   constexpr size_t kLine = 64;  // slots are so many bytes, or a multiple
-  const uint16_t payload_bits = block_bits_[last_];
-  const uint8_t* const from = payload_ + last_ * slot_bytes_;
+  const Put& kept = kept_[place];
+  const uint16_t payload_bits = block_bits_[kept.number];
+  const uint8_t* const from = payload_ + kept.number * slot_bytes_;
   const uint64_t first = uint64_t{by} * blocks_x_ + bx;
   uint16_t* bits = block_bits_ + first;
   uint8_t* slot = payload_ + first * slot_bytes_;
@@ -119,16 +121,16 @@ void SurfaceStore::put_again(uint32_t bx, uint32_t bx_end, uint32_t by) {
     for (size_t at = 0; at < most_bytes; at += kLine) std::memcpy(slot + at, from + at, kLine);
     *bits = payload_bits;
   }
-  put_csb(first, bx_end - bx);
+  put_csb(kept, first, bx_end - bx);
 }
 
-/// The CSB bits of the block put last, for `count` blocks from number `first` on.
-void SurfaceStore::put_csb(uint64_t first, uint32_t count) {
+/// Its CSB bits for `count` blocks from number `first` on.
+void SurfaceStore::put_csb(const Put& put, uint64_t first, uint32_t count) {
   if (csb_bits_ == 0) return;  // then there is no plane
   if (const size_t bytes = csb_bits_ / 8; csb_bits_ % 8 == 0)
-    return repeat_bytes(last_csb_.data(), bytes, csb_.data() + first * bytes, count);
+    return repeat_bytes(put.csb.data(), bytes, csb_.data() + first * bytes, count);
   for (uint64_t number = first; number < first + count; ++number)
-    merge_bits(last_csb_, csb_bits_, csb_, number * csb_bits_);
+    merge_bits(put.csb, csb_bits_, csb_, number * csb_bits_);
 }
 
 }  // namespace tilepress

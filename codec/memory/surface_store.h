@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "solid_blocks.h"
 #include "tilepress/compressed_surface.h"
 #include "tilepress/scheme.h"
 
@@ -17,20 +18,26 @@ class SurfaceStore {
                    const BlockEncoder& encoder, CompressedSurface& out);
   /// Returns the block's payload bits.
   uint32_t put(const BlockEncoder& encoder, const BlockContext& block);
-  /// The block put last, at the places of blocks `bx` to `bx_end` of row `by`.
-  void put_again(uint32_t bx, uint32_t bx_end, uint32_t by);
+  /// Keeps the block put last, to be put again, until the frame ends or another is kept there.
+  void keep(uint32_t place) { kept_[place] = last_; }
+  /// The block kept there, as blocks `bx` to `bx_end` of row `by`.
+  void put_again(uint32_t place, uint32_t bx, uint32_t bx_end, uint32_t by);
 
  private:
   static constexpr uint32_t kMaxCsbBytes = 32;
-  void put_csb(uint64_t first, uint32_t count);
+  struct Put {
+    uint64_t number = 0;                      ///< of the block
+    std::array<uint8_t, kMaxCsbBytes> csb{};  ///< its bits
+  };
+  void put_csb(const Put& put, uint64_t first, uint32_t count);
   uint8_t* payload_ = nullptr;  ///< of the surface, as what follows
   uint16_t* block_bits_ = nullptr;
   std::span<uint8_t> csb_;
   uint32_t csb_bits_ = 0;               ///< of a block
   uint64_t blocks_ = 0, blocks_x_ = 0;  ///< of the surface; slot_bytes_ too: divisions otherwise made anew
   size_t slot_bytes_ = 0;
-  uint64_t last_ = 0;                             ///< number of the block put last by put()
-  std::array<uint8_t, kMaxCsbBytes> last_csb_{};  ///< its CSB bits
+  Put last_;
+  std::array<Put, SolidBlocks::kPlaces> kept_;
 };
 
 }  // namespace tilepress

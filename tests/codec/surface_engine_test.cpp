@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "surface_patterns.h"
+#include "tilepress/compressed_surface.h"
 #include "tilepress/scheme.h"
 
 using namespace tilepress;
@@ -242,6 +243,52 @@ TEST(Engine, WithoutMetricsAFrameCountsWhereverItLies) {
         EXPECT_EQ(statistics.schemes[i].bursts, expected.schemes[i].bursts);
         EXPECT_EQ(statistics.schemes[i].extra_bits, expected.schemes[i].extra_bits);
       }
+  }
+}
+
+TEST(Engine, BlocksOfOneColourCountAsIfEachWereMeasured) {
+  // With verify each is. More colours than are kept at a time, runs of one, and blocks of two between them.
+  std::string error;
+  std::vector<SchemeSpec> specs;
+  for (const char* scheme :
+       {"dcp", "adcp", "vdcp", "vdcp:fvc=2", "huffdcp", "ras", "red", "hdcp", "te", "bdi"})
+    specs.push_back(*parse_scheme(scheme, error));
+  ModelOptions options, measuring_each;
+  measuring_each.verify = true;
+  SurfaceEngine engine(specs, options), measured(specs, measuring_each);
+  BlockBits bits, wanted_bits;
+  engine.note_block_bits(&bits);
+  measured.note_block_bits(&wanted_bits);
+  std::vector<CompressedSurface> surfaces(specs.size()), wanted_surfaces(specs.size());
+  patterns::Dice dice(8);
+  for (int frame = 0; frame < 6; ++frame) {
+    Picture picture = solid(8 * 40, 8 * 20, 0);
+    uint32_t color = 0;
+    for (uint32_t by = 0; by < 20; ++by)
+      for (uint32_t bx = 0; bx < 40; ++bx) {
+        if (dice.below(3) == 0) color = 0xFF000000 | dice.below(frame % 2 == 0 ? 100 : 20) * 0x010305;
+        for (uint32_t y = 0; y < 8; ++y)
+          for (uint32_t x = 0; x < 8; ++x) picture.words[(by * 8 + y) * 320 + bx * 8 + x] = color;
+        if (dice.below(5) == 0) picture.words[by * 8 * 320 + bx * 8 + dice.below(8)] ^= 0x50;
+      }
+    FrameStatistics found, wanted;
+    engine.process(patterns::in_memory(picture).view(), found, surfaces);
+    measured.process(patterns::in_memory(picture).view(), wanted, wanted_surfaces);
+    for (size_t i = 0; i < specs.size(); ++i) {
+      SCOPED_TRACE(specs[i].name + ", frame " + std::to_string(frame));
+      EXPECT_EQ(wanted.schemes[i].mismatched_blocks, 0u);
+      EXPECT_EQ(found.schemes[i].payload_bits, wanted.schemes[i].payload_bits);
+      EXPECT_EQ(found.schemes[i].bursts, wanted.schemes[i].bursts);
+      EXPECT_EQ(found.schemes[i].extra_bits, wanted.schemes[i].extra_bits);
+      EXPECT_EQ(found.schemes[i].vdcp_blocks, wanted.schemes[i].vdcp_blocks);
+      EXPECT_EQ(found.schemes[i].ras_blocks, wanted.schemes[i].ras_blocks);
+      EXPECT_EQ(bits.schemes[i], wanted_bits.schemes[i]);
+      EXPECT_EQ(surfaces[i].payload, wanted_surfaces[i].payload);
+      EXPECT_EQ(surfaces[i].csb, wanted_surfaces[i].csb);
+      EXPECT_EQ(surfaces[i].block_bits, wanted_surfaces[i].block_bits);
+    }
+    EXPECT_EQ(found.metrics.fvc_coverage, wanted.metrics.fvc_coverage);
+    EXPECT_EQ(found.metrics.entropy, wanted.metrics.entropy);
   }
 }
 
