@@ -251,7 +251,7 @@ TEST(Engine, BlocksOfOneColourCountAsIfEachWereMeasured) {
   std::string error;
   std::vector<SchemeSpec> specs;
   for (const char* scheme :
-       {"dcp", "adcp", "vdcp", "vdcp:fvc=2", "huffdcp", "ras", "red", "hdcp", "te", "bdi"})
+       {"dcp", "adcp", "vdcp", "vdcp:fvc=2", "huffdcp", "ras", "red", "hdcp", "bdi"})
     specs.push_back(*parse_scheme(scheme, error));
   ModelOptions options, measuring_each;
   measuring_each.verify = true;
