@@ -28,8 +28,11 @@ class RowPrefetch {
   /// Asks for the next `lines` lines, if there are so many left.
   void step(uint32_t lines) {
     while (lines > 0 && rows_ > 0) {
-      for (; lines > 0 && x_ < width_; --lines, x_ += kLinePixels) __builtin_prefetch(row_ + x_, 0, 2);
-      if (x_ < width_) return;
+      const uint32_t* const row = row_;
+      uint32_t x = x_;  // in a register
+      for (; lines > 0 && x < width_; --lines, x += kLinePixels) __builtin_prefetch(row + x, 0, 2);
+      x_ = x;
+      if (x < width_) return;
       x_ = 0;
       row_ += stride_;
       --rows_;

@@ -100,6 +100,7 @@ struct SurfaceEngine::State {
   void prefetch_tiles(uint32_t begin);
   void prefetch_beside(uint32_t bx, uint32_t bx_end, uint32_t by);
   void advance();
+  void check_block(Lane& lane, const BlockContext& context, uint32_t payload_bits, SchemeStatistics& added);
   void visit_block(uint32_t bx, uint32_t by, const FormatTraits& format);
   uint32_t repeat_last(uint32_t bx, uint32_t bx_end, uint32_t by);
   void repeat_solid(uint32_t place, uint32_t bx, uint32_t count, uint32_t by);
@@ -293,6 +294,13 @@ bool SurfaceEngine::State::split_few(const uint32_t* pixels) {
   return found;
 }
 
+// Not inline: it is rare, and large.
+[[gnu::noinline]] void SurfaceEngine::State::check_block(Lane& lane, const BlockContext& context,
+                                                         uint32_t payload_bits, SchemeStatistics& added) {
+  ++added.checked_blocks;
+  added.mismatched_blocks += !check.round_trip(*lane.encoder, *lane.decoder, context, payload_bits);
+}
+
 void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTraits& format) {
   const uint32_t* top_left = now.row(by * kBlockSide) + bx * kBlockSide;
   alignas(64) uint32_t pixels[kBlockPixels];
@@ -332,10 +340,7 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
     added.payload_bits += payload_bits;
     added.bursts += (payload_bits + burst_round) >> burst_shift;
     lane.encoder->account(context, payload_bits, added);
-    if (lane.decoder) {
-      ++added.checked_blocks;
-      added.mismatched_blocks += !check.round_trip(*lane.encoder, *lane.decoder, context, payload_bits);
-    }
+    if (lane.decoder) check_block(lane, context, payload_bits, added);
     if (context.uniform) out->schemes[i].add(added, 1);
     if (block_bits != nullptr)
       block_bits->schemes[i][size_t{by} * block_bits->blocks_x + bx] = static_cast<uint16_t>(payload_bits);
