@@ -55,6 +55,13 @@ class VdcpDecoder final : public DcpFamilyDecoder {
   VdcpDecoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions&)
       : DcpFamilyDecoder(spec, format) {}
 
+  bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override {
+    if (!DcpFamilyDecoder::begin_frame(tables, table_bits, csb_bits)) return false;
+    reads_at_once_ =
+        kernels().byte_permutes && index_bits_ <= kMaxWrittenBits && rccd_.colors.size() <= colors_.size();
+    if (reads_at_once_) std::copy(rccd_.colors.begin(), rccd_.colors.end(), colors_.begin());
+    return true;
+  }
   bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
     const uint32_t csb_bits = csb_width(index_bits_), raw_mark = (1u << csb_bits) - 1;
     uint64_t marks[2] = {0, 0};  // of eight sub-blocks each
@@ -66,6 +73,8 @@ class VdcpDecoder final : public DcpFamilyDecoder {
       return !csb.overran() && !payload.overran();
     }
     if (marks[0] == marks[1] && decode_solid(marks[0], csb_bits, payload, out))
+      return !csb.overran() && !payload.overran();
+    if (reads_at_once_ && decode_at_once(marks, csb_bits, payload, out))
       return !csb.overran() && !payload.overran();
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
       const auto width = static_cast<uint32_t>(marks[sub / 8] >> (7 - sub % 8) * csb_bits & raw_mark);
@@ -81,6 +90,17 @@ class VdcpDecoder final : public DcpFamilyDecoder {
   uint32_t on_csb_bits() const override { return kSubBlocks * csb_width(index_bits_); }
 
  private:
+  /// A block that is all indices. False, and nothing is read, if it is none.
+  bool decode_at_once(const uint64_t marks[2], uint32_t csb_bits, BitReader& payload, Block& out) const {
+    const uint8_t* bytes = payload.at_byte(64);
+    if (bytes == nullptr) return false;
+    const auto known = static_cast<uint32_t>(rccd_.colors.size());
+    const uint32_t bits =
+        kernels().read_indices(bytes, marks, csb_bits, index_bits_, colors_.data(), known, out.pixels.data());
+    if (bits == kNotAllIndices) return false;
+    payload.skip(bits);
+    return true;
+  }
   /// Blocks of one colour are common, and quicker to fill than to look up pixel by pixel. False, and nothing
   /// is read, if this is none. `marks` are those of either half.
   bool decode_solid(uint64_t marks, uint32_t csb_bits, BitReader& payload, Block& out) const {
@@ -100,6 +120,9 @@ class VdcpDecoder final : public DcpFamilyDecoder {
     payload = in;
     return true;
   }
+
+  bool reads_at_once_ = false;
+  std::array<uint32_t, SlotTable::kSlots> colors_{};  ///< of the rCCD, if it reads at once
 };
 
 }  // namespace

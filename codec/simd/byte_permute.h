@@ -22,5 +22,8 @@ namespace tilepress {
 uint32_t code_sum_by_permutes(const uint16_t* indices, const uint8_t* lengths, uint32_t raw_bits);
 WrittenBlock write_sub_blocks_by_permutes(const uint32_t* pixels, const uint16_t* indices,
                                           const uint8_t* widths, uint32_t mark_bits, uint8_t* out);
+uint32_t read_indices_by_permutes(const uint8_t* bytes, const uint64_t marks[2], uint32_t mark_bits,
+                                  uint32_t most_bits, const uint32_t* colors, uint32_t known,
+                                  uint32_t* raster);
 
 }  // namespace tilepress

@@ -23,5 +23,7 @@ void index_slots_plainly(const uint32_t* pixels, const SlotTable& table, uint16_
 uint32_t code_sum_plainly(const uint16_t* indices, const uint8_t* lengths, uint32_t raw_bits);
 WrittenBlock write_sub_blocks_plainly(const uint32_t* pixels, const uint16_t* indices, const uint8_t* widths,
                                       uint32_t mark_bits, uint8_t* out);
+uint32_t read_indices_plainly(const uint8_t* bytes, const uint64_t marks[2], uint32_t mark_bits,
+                              uint32_t most_bits, const uint32_t* colors, uint32_t known, uint32_t* raster);
 
 }  // namespace tilepress

@@ -47,6 +47,8 @@ struct WrittenBlock {
   uint64_t marks[2];     ///< of eight sub-blocks each, the low bits of their widths, the first on top
 };
 
+constexpr uint32_t kNotAllIndices = 0xFFFFFFFF;
+
 struct Smallest {
   uint32_t at;        ///< the first of the smallest
   uint32_t smallest;  ///< value
@@ -103,6 +105,12 @@ struct Kernels {
   /// follows becomes 0 for WrittenBlock::clean_bytes at least. A mark has `mark_bits` ≤ 7.
   WrittenBlock (*write_sub_blocks)(const uint32_t* pixels, const uint16_t* indices, const uint8_t* widths,
                                    uint32_t mark_bits, uint8_t* out);
+
+  /// The other way round: restores a block that is all indices, of up to `most_bits` ≤ 7 bits and below
+  /// `known` ≤ 64, of `colors`, to raster order. Reads 64 bytes. Returns the number of bits; kNotAllIndices
+  /// if the block is none such, and what `raster` holds then is of no meaning.
+  uint32_t (*read_indices)(const uint8_t* bytes, const uint64_t marks[2], uint32_t mark_bits,
+                           uint32_t most_bits, const uint32_t* colors, uint32_t known, uint32_t* raster);
 
   /// Bits of a block in codes of `lengths`, up to 127 each, by index: of each sub-block the sum over its
   /// indices, but `raw_bits` where that is more or one is kNotInCcd. raw_bits is 64 or 128, indices are below

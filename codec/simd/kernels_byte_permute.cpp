@@ -293,6 +293,7 @@ const Kernels* byte_permute_kernels(const Kernels& base) {
     set.count_slots = count_slots;
     set.index_slots = index_slots;
     set.write_sub_blocks = write_sub_blocks_by_permutes;
+    set.read_indices = read_indices_by_permutes;
     set.code_sum = code_sum_by_permutes;
     return set;
   }();

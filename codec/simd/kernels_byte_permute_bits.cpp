@@ -72,6 +72,62 @@ TILEPRESS_VBMI uint32_t code_sum_by_permutes(const uint16_t* indices, const uint
       _mm512_reduce_add_epi32(_mm512_min_epu32(sums, _mm512_set1_epi32(static_cast<int>(raw_bits)))));
 }
 
+// A sub-block's indices begin with a byte or amid one, and take at most 28 bits: they are in the four bytes
+// from there on.
+TILEPRESS_VBMI uint32_t read_indices_by_permutes(const uint8_t* bytes, const uint64_t marks[2],
+                                                 uint32_t mark_bits, uint32_t most_bits,
+                                                 const uint32_t* colors, uint32_t known, uint32_t* raster) {
+  const uint64_t places = 0x0101010101010101u * ((1u << mark_bits) - 1);
+  const __m128i width8 =
+      _mm_set_epi64x(static_cast<long long>(__builtin_bswap64(_pdep_u64(marks[1], places))),
+                     static_cast<long long>(__builtin_bswap64(_pdep_u64(marks[0], places))));
+  if (_mm_cmpgt_epu8_mask(width8, _mm_set1_epi8(static_cast<char>(most_bits))) != 0) return kNotAllIndices;
+  // Where each begins and ends, in nibbles: as many as the width.
+  __m128i end8 = _mm_add_epi8(width8, _mm_bslli_si128(width8, 1));
+  end8 = _mm_add_epi8(end8, _mm_bslli_si128(end8, 2));
+  end8 = _mm_add_epi8(end8, _mm_bslli_si128(end8, 4));
+  end8 = _mm_add_epi8(end8, _mm_bslli_si128(end8, 8));
+  const __m512i width = _mm512_cvtepu8_epi32(width8), begin = _mm512_cvtepu8_epi32(_mm_bslli_si128(end8, 1));
+  const __m512i one = _mm512_set1_epi32(1);
+  const __m512i four_bytes =
+      _mm512_add_epi32(_mm512_mullo_epi32(_mm512_srli_epi32(begin, 1), _mm512_set1_epi32(0x01010101)),
+                       _mm512_set1_epi32(0x00010203));
+  __m512i packed = _mm512_permutexvar_epi8(four_bytes, _mm512_loadu_si512(bytes));
+  packed = _mm512_sllv_epi32(packed, _mm512_slli_epi32(_mm512_and_si512(begin, one), 2));
+  packed = _mm512_srlv_epi32(packed, _mm512_sub_epi32(_mm512_set1_epi32(32), _mm512_slli_epi32(width, 2)));
+  const __m512i mask = _mm512_sub_epi32(_mm512_sllv_epi32(one, width), one);
+  __m512i index[4];  // of pixel i of each sub-block
+  for (int i = 3; i >= 0; --i, packed = _mm512_srlv_epi32(packed, width))
+    index[i] = _mm512_and_si512(packed, mask);
+  const __m512i largest =
+      _mm512_max_epu32(_mm512_max_epu32(index[0], index[1]), _mm512_max_epu32(index[2], index[3]));
+  if (_mm512_cmpge_epu32_mask(largest, _mm512_set1_epi32(static_cast<int>(known))) != 0)
+    return kNotAllIndices;
+  __m512i pixels[4];
+  for (uint32_t i = 0; i < 4; ++i) {
+    pixels[i] =
+        _mm512_permutex2var_epi32(_mm512_loadu_si512(colors), index[i], _mm512_loadu_si512(colors + 16));
+    if (known > 32)
+      pixels[i] = _mm512_mask_mov_epi32(pixels[i], _mm512_test_epi32_mask(index[i], _mm512_set1_epi32(32)),
+                                        _mm512_permutex2var_epi32(_mm512_loadu_si512(colors + 32), index[i],
+                                                                  _mm512_loadu_si512(colors + 48)));
+  }
+  // Four sub-blocks side by side are a lane: halves of their upper and their lower row.
+  const __m512i upper[2] = {_mm512_unpacklo_epi32(pixels[0], pixels[1]),
+                            _mm512_unpackhi_epi32(pixels[0], pixels[1])};
+  const __m512i lower[2] = {_mm512_unpacklo_epi32(pixels[2], pixels[3]),
+                            _mm512_unpackhi_epi32(pixels[2], pixels[3])};
+  const __m512i upper01 = _mm512_shuffle_i64x2(upper[0], upper[1], 0x44);
+  const __m512i upper23 = _mm512_shuffle_i64x2(upper[0], upper[1], 0xEE);
+  const __m512i lower01 = _mm512_shuffle_i64x2(lower[0], lower[1], 0x44);
+  const __m512i lower23 = _mm512_shuffle_i64x2(lower[0], lower[1], 0xEE);
+  _mm512_storeu_si512(raster, _mm512_shuffle_i64x2(upper01, lower01, 0x88));
+  _mm512_storeu_si512(raster + 16, _mm512_shuffle_i64x2(upper01, lower01, 0xDD));
+  _mm512_storeu_si512(raster + 32, _mm512_shuffle_i64x2(upper23, lower23, 0x88));
+  _mm512_storeu_si512(raster + 48, _mm512_shuffle_i64x2(upper23, lower23, 0xDD));
+  return 4 * (static_cast<uint32_t>(_mm_extract_epi16(end8, 7)) >> 8);
+}
+
 // A sub-block's bits are a multiple of four: it begins with a byte or amid one. All sixteen are laid out, in
 // 16 bytes each, as they lie in memory, those that begin amid a byte with the nibble before them on top; and
 // then written one after the other, each over the zeros behind the one before.

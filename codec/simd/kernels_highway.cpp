@@ -379,6 +379,7 @@ const Kernels& Set(const char* name) {
       .find_few = FindFew,
       .pack = Pack,
       .write_sub_blocks = write_sub_blocks_plainly,
+      .read_indices = read_indices_plainly,
       .code_sum = code_sum_plainly,
       .count_up_to = CountUpTo,
       .members = Members,

@@ -240,6 +240,19 @@ WrittenBlock write_sub_blocks_plainly(const uint32_t* pixels, const uint16_t* in
   return written;
 }
 
+uint32_t read_indices_plainly(const uint8_t* bytes, const uint64_t marks[2], uint32_t mark_bits,
+                              uint32_t most_bits, const uint32_t* colors, uint32_t known, uint32_t* raster) {
+  BitReader bits({bytes, 64});
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    const uint32_t sub = i / kSubBlockPixels;
+    const uint64_t width = marks[sub / 8] >> (7 - sub % 8) * mark_bits & ((1u << mark_bits) - 1);
+    const uint64_t index = width <= most_bits ? bits.get(static_cast<uint32_t>(width)) : known;
+    if (index >= known) return kNotAllIndices;
+    raster[kTraversal[i]] = colors[index];
+  }
+  return static_cast<uint32_t>(bits.position());
+}
+
 const Kernels& scalar_kernels() {
   static const Kernels kScalar = {
       .name = "scalar",
@@ -256,6 +269,7 @@ const Kernels& scalar_kernels() {
       .find_few = find_few,
       .pack = pack,
       .write_sub_blocks = write_sub_blocks_plainly,
+      .read_indices = read_indices_plainly,
       .code_sum = code_sum_plainly,
       .count_up_to = count_up_to,
       .members = members,

@@ -124,6 +124,7 @@ TEST(LfcCollector, HoldsWhatThePlainFvcHolds) {
 TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
   const std::string_view target = simd_target();
   patterns::Dice dice(3);
+  uint32_t all_indices = 0;
   for (int round = 0; round < 3000; ++round) {
     const auto pixels = draw_block(1 + dice.below(12), 1 + dice.below(20), dice);
     const uint64_t mask = uint64_t{dice.next()} << 32 | dice.next();
@@ -165,6 +166,13 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
     const uint32_t mark_bits = 3 + dice.below(5);
     const WrittenBlock block =
         kernels().write_sub_blocks(pixels.data(), few_indices, few_widths, mark_bits, written);
+    const uint64_t marks[2] = {uint64_t{dice.next()} << 32 | dice.next(), block.marks[1]};
+    const bool hostile = round % 3 == 0;
+    const uint32_t most_bits = 1 + dice.below(7), known = dice.below(65);
+    uint32_t raster[64];
+    const uint32_t indices_read = kernels().read_indices(written, hostile ? marks : block.marks, mark_bits,
+                                                         most_bits, pixels.data(), known, raster);
+    all_indices += indices_read != kNotAllIndices;
     uint8_t slots[64];
     for (uint8_t& slot : slots) slot = static_cast<uint8_t>(dice.below(1 + dice.below(64)));
     std::array<uint32_t, 64> counted{};
@@ -201,6 +209,11 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
       ASSERT_EQ(other.clean_bytes, block.clean_bytes);
       ASSERT_TRUE(std::ranges::equal(other.marks, block.marks));
       ASSERT_TRUE(std::equal(written, written + block.clean_bytes, other_written));
+      uint32_t other_raster[64];
+      ASSERT_EQ(kernels().read_indices(written, hostile ? marks : block.marks, mark_bits, most_bits,
+                                       pixels.data(), known, other_raster),
+                indices_read);
+      ASSERT_TRUE(indices_read == kNotAllIndices || std::ranges::equal(raster, other_raster));
       std::array<uint32_t, 64> other_counted{};
       ASSERT_EQ(kernels().count_slots(slots, mask, other_counted.data()), left);
       ASSERT_EQ(other_counted, counted);
@@ -212,4 +225,5 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
     }
   }
   force_simd_target(target);
+  EXPECT_GT(all_indices, 30u);
 }
