@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 
 namespace tilepress {
@@ -11,9 +12,9 @@ namespace tilepress {
 /// and drives out the one that was there.
 class SolidBlocks {
  public:
-  static constexpr uint32_t kPlaces = 32;
+  static constexpr uint32_t kPlaces = 32;  ///< a power of two
 
-  static uint32_t place_of(uint32_t color) { return color * 0x9E3779B1u >> 27; }
+  static uint32_t place_of(uint32_t color) { return color * 0x9E3779B1u >> (32 - std::countr_zero(kPlaces)); }
   /// Forgets all colours. Precondition: all repeats are taken.
   void clear() { places_ = {}; }
   bool holds(uint32_t place, uint32_t color) const {
