@@ -41,19 +41,29 @@ inline constexpr auto kAllRawWidths = [] {
   return raw;
 }();
 
+/// Whether vdcp_write() may be used.
+inline bool vdcp_writes_at_once(uint32_t index_bits, uint32_t pixel_bits) {
+  return pixel_bits == 32 && index_bits <= kMaxWrittenBits && kernels().byte_permutes;
+}
+
+/// Writes a block by one kernel, see Kernels::write_sub_blocks.
+inline WrittenBlock vdcp_write(const BlockContext& block, bool look_up, uint32_t csb_width, uint8_t* out) {
+  const uint8_t* widths = look_up ? block.ccd_widths : kAllRawWidths.data();
+  return kernels().write_sub_blocks(block.pixels, block.ccd_indices, widths, csb_width, out);
+}
+
 /// Writes a block: per sub-block `csb_width` ≤ 5 CSB bits holding the width, or all ones for a raw one.
 /// `look_up` = false: all raw. Indices have at most `index_bits` bits.
 inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t index_bits, uint32_t pixel_bits,
                         uint32_t csb_width, BitWriter& payload, BitWriter& csb) {
-  const uint8_t* widths = look_up ? block.ccd_widths : kAllRawWidths.data();
   const uint32_t half_bits = kSubBlocks / 2 * csb_width;
-  if (pixel_bits == 32 && index_bits <= kMaxWrittenBits && kernels().byte_permutes)
+  if (vdcp_writes_at_once(index_bits, pixel_bits))
     if (uint8_t* out = payload.at_byte(kMaxRawBlockBits / 8); out != nullptr) {
-      const WrittenBlock written =
-          kernels().write_sub_blocks(block.pixels, block.ccd_indices, widths, csb_width, out);
+      const WrittenBlock written = vdcp_write(block, look_up, csb_width, out);
       for (const uint64_t marks : written.marks) csb.put(marks, half_bits);
       return payload.wrote(written.bits);
     }
+  const uint8_t* widths = look_up ? block.ccd_widths : kAllRawWidths.data();
   for (uint32_t half = 0; half < kSubBlocks; half += kSubBlocks / 2) {
     uint64_t marks = 0;
     for (uint32_t sub = half; sub < half + kSubBlocks / 2; ++sub)

@@ -37,12 +37,9 @@ class VdcpEncoder final : public DcpFamilyEncoder {
   }
   StoredBlock store(const BlockContext& block, std::span<uint8_t> slot,
                     std::span<uint8_t> csb) const override {
-    if (off_ || pixel_bits_ != 32 || index_bits_ > kMaxWrittenBits || !kernels().byte_permutes)
-      return BlockEncoder::store(block, slot, csb);
+    if (off_ || !vdcp_writes_at_once(index_bits_, pixel_bits_)) return BlockEncoder::store(block, slot, csb);
     const uint32_t width = csb_width(index_bits_), half_bits = kSubBlocks / 2 * width;
-    const WrittenBlock written =
-        kernels().write_sub_blocks(block.pixels, block.ccd_indices,
-                                   active() ? block.ccd_widths : kAllRawWidths.data(), width, slot.data());
+    const WrittenBlock written = vdcp_write(block, active(), width, slot.data());
     const uint64_t marks = (written.marks[0] << half_bits | written.marks[1]) << (64 - 2 * half_bits);
     const uint64_t bytes = bit_io::big_endian(marks);
     std::memcpy(csb.data(), &bytes, sizeof bytes);
@@ -72,9 +69,8 @@ class VdcpDecoder final : public DcpFamilyDecoder {
       read_raw_block(payload, pixel_bits_, out);
       return !csb.overran() && !payload.overran();
     }
-    if (marks[0] == marks[1] && decode_solid(marks[0], csb_bits, payload, out))
-      return !csb.overran() && !payload.overran();
-    if (reads_at_once_ && decode_at_once(marks, csb_bits, payload, out))
+    if ((marks[0] == marks[1] && decode_solid(marks[0], csb_bits, payload, out)) ||
+        (reads_at_once_ && decode_at_once(marks, csb_bits, payload, out)))
       return !csb.overran() && !payload.overran();
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
       const auto width = static_cast<uint32_t>(marks[sub / 8] >> (7 - sub % 8) * csb_bits & raw_mark);

@@ -250,8 +250,7 @@ TEST(Engine, BlocksOfOneColourCountAsIfEachWereMeasured) {
   // With verify each is. More colours than are kept at a time, runs of one, and blocks of two between them.
   std::string error;
   std::vector<SchemeSpec> specs;
-  for (const char* scheme :
-       {"dcp", "adcp", "vdcp", "vdcp:fvc=2", "huffdcp", "ras", "red", "hdcp", "bdi"})
+  for (const char* scheme : {"dcp", "adcp", "vdcp", "vdcp:fvc=2", "huffdcp", "ras", "red", "hdcp", "bdi"})
     specs.push_back(*parse_scheme(scheme, error));
   ModelOptions options, measuring_each;
   measuring_each.verify = true;

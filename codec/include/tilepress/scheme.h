@@ -77,8 +77,8 @@ class BlockEncoder {
   virtual uint32_t measure(const BlockContext& block) const = 0;
   virtual void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const = 0;
   /// The same bits from the beginning of memory of the block's own: `slot` as large as a raw block at least,
-  /// and in whole lines of 64 bytes, `csb` at least 8 bytes and as many as csb_bits() want, its last byte
-  /// filled up with zeros.
+  /// and in whole lines of 64 bytes, `csb` at least 8 bytes and as many as csb_bits() want, its last byte,
+  /// and the first 8 bytes, filled up with zeros.
   virtual StoredBlock store(const BlockContext& block, std::span<uint8_t> slot,
                             std::span<uint8_t> csb) const {
     BitWriter payload(slot), marks(csb);
