@@ -41,6 +41,11 @@ inline constexpr auto kAllRawWidths = [] {
   return raw;
 }();
 
+/// Of the sub-blocks; `look_up` = false: all raw.
+inline const uint8_t* vdcp_widths(const BlockContext& block, bool look_up) {
+  return look_up ? block.ccd_widths : kAllRawWidths.data();
+}
+
 /// Whether vdcp_write() may be used.
 inline bool vdcp_writes_at_once(uint32_t index_bits, uint32_t pixel_bits) {
   return pixel_bits == 32 && index_bits <= kMaxWrittenBits && kernels().byte_permutes;
@@ -48,7 +53,7 @@ inline bool vdcp_writes_at_once(uint32_t index_bits, uint32_t pixel_bits) {
 
 /// Writes a block by one kernel, see Kernels::write_sub_blocks.
 inline WrittenBlock vdcp_write(const BlockContext& block, bool look_up, uint32_t csb_width, uint8_t* out) {
-  const uint8_t* widths = look_up ? block.ccd_widths : kAllRawWidths.data();
+  const uint8_t* widths = vdcp_widths(block, look_up);
   return kernels().write_sub_blocks(block.pixels, block.ccd_indices, widths, csb_width, out);
 }
 
@@ -63,7 +68,7 @@ inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t index_
       for (const uint64_t marks : written.marks) csb.put(marks, half_bits);
       return payload.wrote(written.bits);
     }
-  const uint8_t* widths = look_up ? block.ccd_widths : kAllRawWidths.data();
+  const uint8_t* widths = vdcp_widths(block, look_up);
   for (uint32_t half = 0; half < kSubBlocks; half += kSubBlocks / 2) {
     uint64_t marks = 0;
     for (uint32_t sub = half; sub < half + kSubBlocks / 2; ++sub)
