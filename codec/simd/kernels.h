@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/color_buckets.h"
 #include "simd/probe_table.h"
 #include "simd/slot_table.h"
 #include "tilepress/block.h"
@@ -134,6 +135,12 @@ struct Kernels {
 
   /// Bit i of the result: of 64 pixels, number i differs from the one before it; bit 0 is set.
   uint64_t (*run_begins)(const uint32_t* pixels);
+
+  /// Bit i of `begins` says that a run of pixels of one colour begins at pixel i; the last ends before `end`.
+  /// Adds the length of each to the count of its colour where the colour's own bucket holds that; returns the
+  /// beginnings of the others.
+  uint64_t (*count_runs)(const uint32_t* pixels, uint64_t begins, uint32_t end, ColorBucket* table,
+                         size_t buckets);
 
   /// Bits of the Golomb-Rice codes of four planes with their group headers, without the first pixels.
   /// samples: rows of 40 values, row -1 to 7; see ras_samples.h.

@@ -266,6 +266,29 @@ uint64_t RunBegins(const uint32_t* HWY_RESTRICT pixels) {
   return begins;
 }
 
+uint64_t CountRuns(const uint32_t* HWY_RESTRICT pixels, uint64_t begins, uint32_t end,
+                   ColorBucket* HWY_RESTRICT table, size_t buckets) {
+  const hn::CappedTag<uint32_t, ColorBucket::kPlaces> d;
+  uint64_t others = 0;
+  while (begins != 0) {
+    const auto first = static_cast<uint32_t>(__builtin_ctzll(begins));
+    begins &= begins - 1;
+    const uint32_t next = begins != 0 ? static_cast<uint32_t>(__builtin_ctzll(begins)) : end;
+    ColorBucket& bucket = table[ColorBucket::of(pixels[first], buckets)];
+    const auto wanted = hn::Set(d, pixels[first]);
+    intptr_t place = -1;
+    for (size_t i = 0; i < ColorBucket::kPlaces && place < 0; i += hn::Lanes(d)) {
+      place = hn::FindFirstTrue(d, hn::Eq(hn::Load(d, bucket.colors + i), wanted));
+      if (place >= 0) place += static_cast<intptr_t>(i);
+    }
+    if (place >= 0)
+      bucket.counts[place] += next - first;
+    else
+      others |= uint64_t{1} << first;
+  }
+  return others;
+}
+
 using Samples = hn::CappedTag<int16_t, 32>;  // a row of eight pixels of four planes
 
 template <class V>
@@ -386,6 +409,7 @@ const Kernels& Set(const char* name) {
       .find_smallest = FindSmallest,
       .compact = Compact,
       .run_begins = RunBegins,
+      .count_runs = CountRuns,
       .ras_code_bits = RasCodeBits,
       .replace_row = ReplaceRow,
       .widen_bytes = WidenBytes,

@@ -6,6 +6,7 @@
 #include "ras/ras_samples.h"
 #include "simd/index_widths.h"
 #include "simd/kernel_sets.h"
+#include "simd/mask_runs.h"
 #include "simd/replace_words.h"
 #include "tilepress/bit_io.h"
 #include "tilepress/block.h"
@@ -121,6 +122,20 @@ uint64_t run_begins(const uint32_t* pixels) {
   uint64_t begins = 1;
   for (uint32_t i = 1; i < kLanes; ++i) begins |= uint64_t{pixels[i] != pixels[i - 1]} << i;
   return begins;
+}
+
+uint64_t count_runs(const uint32_t* pixels, uint64_t begins, uint32_t end, ColorBucket* table,
+                    size_t buckets) {
+  uint64_t others = 0;
+  for_each_mask_run(begins, end, [&](uint32_t first, uint32_t length) {
+    ColorBucket& bucket = table[ColorBucket::of(pixels[first], buckets)];
+    const uint32_t place = bucket.find(pixels[first]);
+    if (place < ColorBucket::kPlaces)
+      bucket.counts[place] += length;
+    else
+      others |= uint64_t{1} << first;
+  });
+  return others;
 }
 
 int32_t median_edge(int32_t a, int32_t b, int32_t c) {
@@ -276,6 +291,7 @@ const Kernels& scalar_kernels() {
       .find_smallest = find_smallest,
       .compact = compact,
       .run_begins = run_begins,
+      .count_runs = count_runs,
       .ras_code_bits = ras_code_bits,
       .replace_row = replace_row,
       .widen_bytes = widen_bytes,

@@ -216,16 +216,16 @@ void ColorDistribution::distribute(const PixelPlane& frame, std::vector<uint32_t
     });
 }
 
-void ColorDistribution::load(const ColorHistogram& colors) {
+void ColorDistribution::load_before(const ColorHistogram& colors) {
   std::vector<uint32_t>& next = tables_of_thread().next;
   std::fill(next.begin(), next.end(), 0u);
-  for (const ColorHistogram::Entry& entry : colors.table()) next[group_of(entry.color)] += entry.count;
+  colors.for_each_before([&](uint32_t color, uint32_t count) { next[group_of(color)] += count; });
   note_sizes(next, last_);
   last_.weights.clear();
-  for (const ColorHistogram::Entry& entry : colors.table()) {
-    std::fill_n(last_.values.begin() + next[group_of(entry.color)], entry.count, value_of(entry.color));
-    next[group_of(entry.color)] += entry.count;
-  }
+  colors.for_each_before([&](uint32_t color, uint32_t count) {
+    std::fill_n(last_.values.begin() + next[group_of(color)], count, value_of(color));
+    next[group_of(color)] += count;
+  });
 }
 
 ColorDistribution::Change ColorDistribution::count_groups(Tables& tables, const Grouped& now,

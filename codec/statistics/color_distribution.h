@@ -23,8 +23,8 @@ class ColorDistribution {
     uint64_t gained = 0;  ///< pixels that colours gained since the frame before; 0 without one
     uint64_t held = 0;    ///< pixels whose colour is one of `held_colors`
   };
-  /// Makes a frame of `colors` the last one.
-  void load(const ColorHistogram& colors);
+  /// Makes the frame before the one in `colors` the last one.
+  void load_before(const ColorHistogram& colors);
   /// Adds the counts of the colours of `frame` to `profile`, and makes it the last one. `compare` it to the
   /// last frame, which had as many pixels. `held_colors` are distinct; their order is changed.
   Change count(const PixelPlane& frame, bool compare, std::span<uint32_t> held_colors, CountProfile& profile);

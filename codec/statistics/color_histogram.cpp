@@ -2,55 +2,103 @@
 #include "statistics/color_histogram.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 
+#include "simd/kernels.h"
+
 namespace tilepress {
 
+void ColorHistogram::reset(size_t buckets) {
+  table_.assign(buckets, ColorBucket{});
+  before_.assign(buckets, Counts{});
+  used_ = stale_ = 0;
+}
+
 void ColorHistogram::clear(size_t largest_size) {
-  largest_size_ = largest_size;
-  if (table_.empty() || table_.size() > largest_size_) {
-    table_ = std::vector<Entry>(std::min<size_t>(1024, largest_size_));
-  } else {
-    std::fill(table_.begin(), table_.end(), Entry{0, 0});
+  constexpr size_t kSmallest = 128;
+  largest_ = largest_size / kPlaces;
+  reset(table_.empty() || table_.size() > largest_ ? std::min(kSmallest, largest_) : table_.size());
+}
+
+bool ColorHistogram::overflowed(size_t at) const {
+  while (table_[at].colors[kPlaces - 1] != 0) {
+    at = after(at);
+    const uint32_t* colors = table_[at].colors;
+    if (std::any_of(colors, colors + kPlaces, [&](uint32_t color) {
+          return color != 0 && ColorBucket::of(color, table_.size()) != at;
+        }))
+      return true;
   }
-  used_ = 0;
+  return false;
+}
+
+std::pair<size_t, uint32_t> ColorHistogram::place_of(uint32_t color) const {
+  size_t at = ColorBucket::of(color, table_.size());
+  for (;; at = after(at)) {
+    uint32_t place = table_[at].find(color);
+    if (place == kPlaces) place = table_[at].find(0);
+    if (place != kPlaces) return {at, place};
+  }
 }
 
 bool ColorHistogram::add(uint32_t color, uint32_t count) {
   for (;;) {
-    size_t at = slot_of(color);
-    while (table_[at].count != 0 && table_[at].color != color) at = after(at);
-    if (table_[at].count != 0) {
-      table_[at].count += count;
+    const auto [at, place] = place_of(color);
+    ColorBucket& bucket = table_[at];
+    if (bucket.colors[place] == color) {
+      bucket.counts[place] += count;
       return true;
     }
-    const bool largest = table_.size() >= largest_size_;  // no smaller one gets as full
-    if ((used_ + 1) * 8 <= table_.size() * (largest ? 7 : 4)) {
-      table_[at] = {color, count};
+    const bool largest = table_.size() >= largest_;  // no smaller one gets as full
+    if ((used_ + 1) * 8 <= table_.size() * kPlaces * (largest ? 7 : 4)) {
+      bucket.colors[place] = color;
+      bucket.counts[place] = count;
       ++used_;
       return true;
     }
-    if (!grow()) return false;
+    if (!make_room()) return false;
   }
+}
+
+bool ColorHistogram::add_runs(const uint32_t* pixels, uint64_t begins, uint32_t end) {
+  uint64_t left = kernels().count_runs(pixels, begins, end, table_.data(), table_.size());
+  for (; left != 0; left &= left - 1) {
+    const auto first = static_cast<uint32_t>(std::countr_zero(left));
+    const uint64_t later = begins & ~uint64_t{1} << first;
+    const uint32_t next = later != 0 ? static_cast<uint32_t>(std::countr_zero(later)) : end;
+    if (!add(pixels[first], next - first)) return false;
+  }
+  return true;
 }
 
 uint32_t ColorHistogram::count(uint32_t color) const {
-  for (size_t at = slot_of(color);; at = after(at))
-    if (table_[at].count == 0 || table_[at].color == color) return table_[at].count;
+  const auto [at, place] = place_of(color);
+  return table_[at].counts[place];
 }
 
-bool ColorHistogram::grow() {
-  if (table_.size() >= largest_size_) return false;
-  std::vector<Entry> old(std::min(table_.size() * 2, largest_size_));
-  old.swap(table_);
-  for (const Entry& entry : old) {
-    if (entry.count == 0) continue;
-    size_t at = slot_of(entry.color);
-    while (table_[at].count != 0) at = after(at);
-    table_[at] = entry;
-  }
+bool ColorHistogram::make_room() {
+  const bool larger = table_.size() < largest_;
+  if (!larger && stale_ * 8 < table_.size() * kPlaces) return false;
+  rebuild(larger ? std::min(table_.size() * 2, largest_) : largest_);
   return true;
+}
+
+void ColorHistogram::rebuild(size_t buckets) {
+  const std::vector<ColorBucket> table = std::move(table_);
+  const std::vector<Counts> before = std::move(before_);
+  reset(buckets);
+  for (size_t from = 0; from < table.size(); ++from)
+    for (uint32_t i = 0; i < kPlaces; ++i) {
+      const uint32_t color = table[from].colors[i];
+      if (table[from].counts[i] == 0 && before[from][i] == 0) continue;
+      const auto [at, place] = place_of(color);
+      table_[at].colors[place] = color;
+      table_[at].counts[place] = table[from].counts[i];
+      before_[at][place] = before[from][i];
+      used_ += color != 0;
+    }
 }
 
 void CountProfile::clear() {

@@ -6,7 +6,6 @@
 
 #include "dcp/fvc.h"
 #include "simd/bit_count.h"
-#include "simd/mask_runs.h"
 
 namespace tilepress {
 namespace {
@@ -17,38 +16,37 @@ size_t pixels_per_color(size_t pixels) {
   return pixels < 1u << 18 ? 12 : 64;
 }
 
-/// Slots for a frame of as many colours; two tables take an eighth of a raw frame of 4 bytes a pixel, or two
+/// Places for the colours of two such frames; they take an eighth of a raw frame of 4 bytes a pixel, or two
 /// thirds of a small one.
 size_t largest_table(size_t pixels) {
-  return std::max<size_t>(1024, pixels * 2 / pixels_per_color(pixels));
+  return std::max<size_t>(1024, pixels * 8 / 3 / pixels_per_color(pixels));
 }
 
 }  // namespace
 
 bool FrameMeter::take(uint32_t color, uint32_t count) {
-  ColorHistogram::Entry& entry = recent_[(color * 0x9E3779B1u) >> 21];
+  RecentColor& entry = recent_[(color * 0x9E3779B1u) >> 21];
   if (entry.color == color) {
     entry.count += count;
     return true;
   }
-  const bool room = entry.count == 0 || now_.add(entry.color, entry.count);
+  const bool room = entry.count == 0 || counts_.add(entry.color, entry.count);
   entry = {color, count};
   return room;
 }
 
 bool FrameMeter::flush() {
   bool room = true;
-  for (ColorHistogram::Entry& entry : recent_) {
-    if (entry.count != 0) room = room && now_.add(entry.color, entry.count);
+  for (RecentColor& entry : recent_) {
+    if (entry.count != 0) room = room && counts_.add(entry.color, entry.count);
     entry = {};
   }
   return room;
 }
 
 void FrameMeter::begin_frame(size_t pixels) {
-  std::swap(now_, before_);
   counting_ = !many_;
-  if (counting_) now_.clear(largest_table(pixels));
+  if (counting_ && !hashed_) counts_.clear(largest_table(pixels));
 }
 
 void FrameMeter::see_all(const uint32_t* pixels, uint32_t count) {
@@ -63,9 +61,7 @@ void FrameMeter::see_all(const uint32_t* pixels, uint32_t count) {
 void FrameMeter::see_pixels(const uint32_t* pixels, uint32_t count, uint64_t alike) {
   if (!counting_) return;
   const uint64_t begins = (~alike & ~uint64_t{0} >> (kLanes - count)) | 1;
-  for_each_mask_run(begins, count, [&](uint32_t first, uint32_t length) {  // these hardly come back soon
-    counting_ = counting_ && now_.add(pixels[first], length);
-  });
+  counting_ = counts_.add_runs(pixels, begins, count);  // past recent_: these hardly come back soon
 }
 
 void FrameMeter::see_block(const FewColors& few) {
@@ -73,19 +69,17 @@ void FrameMeter::see_block(const FewColors& few) {
 }
 
 void FrameMeter::count_few(bool compare, const Fvc& fvc) {
-  for (const ColorHistogram::Entry& entry : now_.table()) {
-    if (entry.count == 0) continue;
-    profile_.add(entry.count);
-    if (!compare) continue;
-    const uint32_t was = before_.count(entry.color);
-    change_.gained += entry.count > was ? entry.count - was : 0;
-  }
   for (uint32_t slot = 0; slot < fvc.slots(); ++slot)
-    if (fvc.valid(slot)) change_.held += now_.count(fvc.color(slot));
+    if (fvc.valid(slot)) change_.held += counts_.count(fvc.color(slot));
+  counts_.end_frame([&](uint32_t count, uint32_t before) {
+    profile_.add(count);
+    change_.gained += std::max(count, before) - before;
+  });
+  if (!compare) change_.gained = 0;
 }
 
 void FrameMeter::count_many(const PixelPlane& frame, bool compare, const Fvc& fvc) {
-  if (compare && hashed_) distribution_.load(before_);
+  if (compare && hashed_) distribution_.load_before(counts_);
   std::vector<uint32_t> held;
   for (uint32_t slot = 0; slot < fvc.slots(); ++slot)
     if (fvc.valid(slot)) held.push_back(fvc.color(slot));
@@ -110,16 +104,14 @@ FrameMetrics FrameMeter::measure(const PixelPlane& frame, std::optional<uint64_t
   // Some way below the limit before it goes back: hashing and distributing by turns costs both.
   many_ = profile_.colors() * pixels_per_color(pixels) * (many_ ? 2 : 1) > pixels;
   if (!many_ && !hashed_) {
-    now_.clear(largest_table(pixels));
+    counts_.clear(largest_table(pixels));
     counting_ = true;
     for (uint32_t y = 0; y < frame.height(); ++y) see_all(frame.row(y), frame.width());
     hashed_ = flush() && counting_;
+    if (hashed_) counts_.end_frame([](uint32_t, uint32_t) {});
     many_ = !hashed_;
   }
-  if (many_ && !hashed_) {
-    now_.release();
-    before_.release();
-  }
+  if (many_ && !hashed_) counts_.release();
 
   FrameMetrics metrics;
   metrics.unique_colors = profile_.colors();

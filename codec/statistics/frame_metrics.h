@@ -42,11 +42,14 @@ class FrameMeter final : public ColorListener {
   void count_few(bool compare, const Fvc& fvc);
   void count_many(const PixelPlane& frame, bool compare, const Fvc& fvc);
 
-  ColorHistogram now_, before_;
+  ColorHistogram counts_;
   /// Most colours come back soon: here they wait before they go to the large table.
-  std::array<ColorHistogram::Entry, 2048> recent_{};
-  bool counting_ = false;  ///< into now_
-  bool hashed_ = false;    ///< the colours measured last are in now_; otherwise distributed
+  struct RecentColor {
+    uint32_t color, count;  ///< count 0: none
+  };
+  std::array<RecentColor, 2048> recent_{};
+  bool counting_ = false;  ///< into counts_
+  bool hashed_ = false;    ///< the colours measured last are in counts_; otherwise distributed
   bool many_ = false;      ///< colours are to be expected
   ColorDistribution distribution_;
   CountProfile profile_;

@@ -17,8 +17,8 @@ using reference::Picture;
 
 namespace {
 
-constexpr uint32_t kWidth = 251,
-                   kHeight = 160;  // 627 colours are a 64th of the pixels: the way of counting changes
+// 3346 colours are a twelfth of the pixels: the way of counting changes.
+constexpr uint32_t kWidth = 251, kHeight = 160;
 
 Picture colors_at_random(uint32_t colors, uint64_t seed, uint32_t lowest = 0) {
   patterns::Dice dice(seed);
@@ -87,6 +87,10 @@ TEST(Metrics, AreThoseOfPlainCountsHoweverManyColoursCome) {
       colors_at_random(600, 3),
       colors_at_random(700, 4),
       colors_at_random(1090, 5),
+      colors_at_random(3300, 14, 1000),
+      colors_at_random(3300, 15, 4000),
+      colors_at_random(3700, 16),
+      colors_at_random(9000, 17),
       half_noise(6),
       half_noise(7),
       runs_of_noise(3, 12),
