@@ -1,12 +1,12 @@
-// Pixel memory: room for the pixels of a frame, in huge pages where they are to be had.
+// Pixel memory: room for the pixels of a frame.
 #pragma once
 
 #include <cstddef>
 
 namespace tilepress {
 
-/// Mapped, not allocated: the program's allocator is its own affair (Chromium's ends the process when asked
-/// for such an alignment).
+/// Mapped, not allocated: the program's allocator is its own affair. Huge pages are not asked for: frames are
+/// read into them no faster, and to get some takes a virtual machine longer than a program's first frames do.
 class PixelMemory {
  public:
   PixelMemory() = default;
