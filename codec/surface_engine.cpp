@@ -61,8 +61,9 @@ struct SurfaceEngine::State {
   std::vector<Lane> lanes;
   PixelPlane now;
   bool referred = false;  ///< now is the frame where it lies, and no copy
-  RowPrefetch prefetch;   ///< if it is
-  uint64_t changed = 0;   ///< pixels, since the frame before
+  bool prefetches = false;
+  RowPrefetch prefetch;
+  uint64_t changed = 0;  ///< pixels, since the frame before
   RasMemo ras_memo;
   FrameMeter meter;
   BlockCheck check;
@@ -155,8 +156,10 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
 void SurfaceEngine::State::begin_frame() {
   if (!opened) open(traits(frame.format));
   const uint64_t tile_bytes = uint64_t{options.tile_side} * frame.width * sizeof(uint32_t);
-  referred = !compares_frames && tile_bytes <= RowPrefetch::kMostBytes && now.refer_to(frame);
+  const bool few_bytes = tile_bytes <= RowPrefetch::kMostBytes;
+  referred = !compares_frames && few_bytes && now.refer_to(frame);
   if (!referred) now.reshape(frame);
+  prefetches = few_bytes && (referred || !needs_whole_frame);
   out->width = frame.width;
   out->height = frame.height;
   out->format = frame.format;
@@ -206,14 +209,15 @@ void SurfaceEngine::State::take_rows(uint32_t begin, uint32_t end) {
 
 /// While the row of tiles before row `begin` of blocks is visited, those of the next one are asked for.
 void SurfaceEngine::State::prefetch_tiles(uint32_t begin) {
-  const uint32_t end = std::min(begin + options.tile_side / kBlockSide, now.blocks_y());
-  prefetch.aim(now, begin * kBlockSide, end * kBlockSide);
+  const uint32_t y = std::min(begin * kBlockSide, frame.height);
+  prefetch.aim(frame, y, std::min(y + options.tile_side, frame.height));
 }
 
 /// What is asked for while blocks `bx` to `bx_end` of row `by` are visited.
 void SurfaceEngine::State::prefetch_beside(uint32_t bx, uint32_t bx_end, uint32_t by) {
-  prefetch.step((bx_end - bx) * kBlockPixels / RowPrefetch::kLinePixels);
-  RowPrefetch::bring_nearer(now, bx_end, std::min(2 * bx_end - bx, now.blocks_x()), by);
+  constexpr uint32_t kBlockLines = kBlockPixels * sizeof(uint32_t) / RowPrefetch::kLineBytes;
+  prefetch.step((bx_end - bx) * kBlockLines);
+  if (referred) RowPrefetch::bring_nearer(now, bx_end, std::min(2 * bx_end - bx, now.blocks_x()), by);
 }
 
 /// Pixels of blocks side by side that lie inside the surface: padding never enters the FVC.
@@ -354,13 +358,13 @@ void SurfaceEngine::State::advance() {
   const uint32_t begin = next_row;
   next_row = std::min(begin + options.tile_side / kBlockSide, now.blocks_y());
   if (!needs_whole_frame) take_rows(begin, next_row);  // they are at hand then
-  if (referred) {
-    if (begin == 0) prefetch_tiles(0), prefetch.step(UINT32_MAX);
+  if (prefetches) {
+    if (referred && begin == 0) prefetch_tiles(0), prefetch.step(UINT32_MAX);
     prefetch_tiles(next_row);
   }
   for_each_row_in_tiles(now.blocks_x(), begin, next_row, options.tile_side,
                         [&](uint32_t bx, uint32_t bx_end, uint32_t by) {
-                          if (referred) prefetch_beside(bx, bx_end, by);
+                          if (prefetches) prefetch_beside(bx, bx_end, by);
                           while (bx < bx_end) {
                             if (last_solid && can_repeat) bx += repeat_last(bx, bx_end, by);
                             if (bx < bx_end) visit_block(bx++, by, format);
