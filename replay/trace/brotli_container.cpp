@@ -8,6 +8,9 @@
 namespace tilepress {
 namespace {
 
+/// Little at first, for who wants to see no more than how a file begins: the decoder hands out what it has
+/// when its input is used up.
+constexpr size_t kFirstInputBytes = 4 << 10;
 constexpr size_t kInputBytes = 64 << 10;
 constexpr size_t kOutputBytes = 256 << 10;
 
@@ -16,7 +19,7 @@ class BrotliContainer : public TraceContainer {
   explicit BrotliContainer(TraceInput& input)
       : input_(input),
         state_(BrotliDecoderCreateInstance(nullptr, nullptr, nullptr), BrotliDecoderDestroyInstance),
-        packed_(kInputBytes),
+        packed_(kFirstInputBytes),
         plain_(kOutputBytes) {}
   const char* name() const override { return "brotli"; }
   bool has_signature() const override { return false; }
@@ -26,12 +29,13 @@ class BrotliContainer : public TraceContainer {
     if (finished_) return finish(ContainerEnd::kClean, "");
     uint8_t* out = plain_.data();
     size_t room = plain_.size();
-    while (room > 0) {
+    for (;;) {
       const BrotliDecoderResult result =
           BrotliDecoderDecompressStream(state_.get(), &available_, &from_, &room, &out, nullptr);
       if (result == BROTLI_DECODER_RESULT_SUCCESS) finished_ = true;
       if (result == BROTLI_DECODER_RESULT_ERROR) fault_ = ContainerEnd::kCorrupt;
-      if (result != BROTLI_DECODER_RESULT_NEEDS_MORE_INPUT) break;
+      if (result != BROTLI_DECODER_RESULT_NEEDS_MORE_INPUT || room < plain_.size()) break;
+      if (from_ != nullptr) packed_.resize(kInputBytes);
       available_ = input_.read(packed_);
       from_ = packed_.data();
       if (available_ == 0) {

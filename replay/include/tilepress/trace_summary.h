@@ -63,7 +63,8 @@ struct TraceLimits {
 /// path.
 std::optional<TraceSummary> summarize_trace(const std::string& path, std::string& error,
                                             const TraceLimits& limits = {});
-/// Whether `path` begins as a trace: its container, header and first call can be read. Reads some 100 KiB.
+/// Whether `path` begins as a trace: its container, header and first call can be read. Reads no more of it
+/// than that takes.
 bool begins_as_trace(const std::string& path);
 /// As the first, for a file held in memory.
 std::optional<TraceSummary> summarize_trace(std::span<const uint8_t> file, std::string& error,
