@@ -12,6 +12,7 @@
 
 #include "block_check.h"
 #include "dcp/collector.h"
+#include "few_color_search.h"
 #include "memory/surface_store.h"
 #include "ras/ras_memo.h"
 #include "row_prefetch.h"
@@ -81,13 +82,11 @@ struct SurfaceEngine::State {
   struct {
     uint32_t color = 0, count = 0;
   } run;
-  FewColors few;  ///< of the block being visited
-  bool is_few = false;
+  FewColorSearch few_color_search;
+  const FewColors* few = nullptr;         ///< colours of the block being visited; null: not known to be few
   bool loads_slots = false;               ///< the first collector loads blocks, and looks them up at once
   bool wants_few = false;                 ///< a collector makes use of few colours, or the meter does
   bool meter_looks = false;               ///< the meter has to see the pixels, and no collector tells it
-  uint32_t few_score = 0;                 ///< how well it went lately to look for few colours
-  uint32_t until_few = 0;                 ///< blocks not to look at, when it went badly
   std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere
   BlockBits* block_bits = nullptr;
   uint32_t burst_round = 0, burst_shift = 0;  ///< burst_bits is a power of two
@@ -110,7 +109,6 @@ struct SurfaceEngine::State {
   void collect_solid(uint32_t count, uint32_t color);
   void collect(const BlockContext& block);
   void settle_run();
-  bool split_few(const uint32_t* pixels);
   uint32_t ras_bits(const BlockContext& block, const uint32_t* top_left, const FormatTraits& format,
                     bool ycocg) {
     if (block.uniform) return ras_uniform_bits(format, ycocg);
@@ -252,8 +250,8 @@ void SurfaceEngine::State::collect(const BlockContext& block) {
       if (kTraversal[i] % 8 < width && kTraversal[i] / 8 < height) inside[count++] = block.pixels[i];
     pixels = inside;
   }
-  const FewColors* whole_few = is_few && count == kBlockPixels ? &few : nullptr;
-  if (meter_looks) whole_few != nullptr ? meter.see_block(few) : meter.see_all(pixels, count);
+  const FewColors* whole_few = count == kBlockPixels ? few : nullptr;
+  if (meter_looks) whole_few != nullptr ? meter.see_block(*whole_few) : meter.see_all(pixels, count);
   for (const auto& collector : collectors) collector->see_all(pixels, count, whole_few);
 }
 
@@ -284,20 +282,6 @@ void SurfaceEngine::State::settle_repeats(uint32_t place) {
   for (size_t i = 0; i < lanes.size(); ++i) out->schemes[i].add(lanes[i].solids[place], repeats);
 }
 
-/// Whether the block has few colours, into `few`. Looking in vain costs as much as it saves otherwise, so
-/// where blocks have many colours few of them are looked at. What comes out does not depend on it.
-bool SurfaceEngine::State::split_few(const uint32_t* pixels) {
-  constexpr uint32_t kBest = 12, kFailure = 4, kPause = 7;
-  if (until_few > 0) {
-    --until_few;
-    return false;
-  }
-  const bool found = kernels().split(pixels, few);
-  few_score = found ? std::min(few_score + 1, kBest) : few_score - std::min(few_score, kFailure);
-  if (few_score == 0 && !found) until_few = kPause;
-  return found;
-}
-
 // Not inline: it is rare, and large.
 [[gnu::noinline]] void SurfaceEngine::State::check_block(Lane& lane, const BlockContext& context,
                                                          uint32_t payload_bits, SchemeStatistics& added) {
@@ -323,11 +307,11 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
     settle_repeats(last_place);
     solids.keep(last_place, pixels[0]);
   }
-  is_few = wants_few && !context.uniform && split_few(pixels);
+  few = wants_few && !context.uniform ? few_color_search.look(pixels) : nullptr;
   if (needs_raster || (needs_raster_to_encode && !surfaces.empty())) now.load_block(bx, by, block);
   for (size_t i = loads_slots && !context.uniform ? 1 : 0; i < collectors.size(); ++i)
     if (collectors[i]->wanted && collectors[i]->ccd() != nullptr)
-      collectors[i]->look_up(pixels, context.uniform, is_few ? &few : nullptr);
+      collectors[i]->look_up(pixels, context.uniform, few);
   if (needs_ras) context.ras_bits = ras_bits(context, top_left, format, false);
   if (needs_ras_ycocg) context.ras_ycocg_bits = ras_bits(context, top_left, format, true);
   for (size_t i = 0; i < lanes.size(); ++i) {

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "simd/kernels_highway.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-#include "ras/ras_samples.h"
+#include "simd/kernels_highway_ras.h"
 #include "simd/replace_words.h"
 #include "tilepress/block.h"
 #include "tilepress/scheme.h"
@@ -289,67 +289,6 @@ uint64_t CountRuns(const uint32_t* HWY_RESTRICT pixels, uint64_t begins, uint32_
   return others;
 }
 
-using Samples = hn::CappedTag<int16_t, 32>;  // a row of eight pixels of four planes
-
-template <class V>
-HWY_INLINE V FoldedResidual(const Samples& d, const int16_t* at, V) {
-  const auto a = hn::LoadU(d, at - 4), b = hn::LoadU(d, at - kRasRowSamples);
-  const auto c = hn::LoadU(d, at - kRasRowSamples - 4);
-  const auto gradient = hn::Sub(hn::Add(a, b), c);
-  const auto prediction = hn::Max(hn::Min(a, b), hn::Min(hn::Max(a, b), gradient));
-  const auto e = hn::Sub(hn::LoadU(d, at), prediction);
-  return hn::Xor(hn::Add(e, e), hn::ShiftRight<15>(e));
-}
-
-template <int kK, class V>
-HWY_INLINE V GroupBits(const Samples& d, V u0, V u1, V u2, V u3, V residuals) {
-  const auto high = hn::Add(hn::Add(hn::ShiftRight<kK>(u0), hn::ShiftRight<kK>(u1)),
-                            hn::Add(hn::ShiftRight<kK>(u2), hn::ShiftRight<kK>(u3)));
-  // residuals · (1 + k), by additions: no 16-bit multiplication needed
-  auto fixed = hn::Set(d, 3);
-  for (int i = 0; i <= kK; ++i) fixed = hn::Add(fixed, residuals);
-  return hn::Add(high, fixed);
-}
-
-uint32_t RasCodeBits(const int16_t* HWY_RESTRICT samples) {
-  const Samples d;
-  const hn::Repartition<uint64_t, Samples> d64;  // one pixel a lane
-  const hn::Repartition<int32_t, Samples> d32;
-  auto total = hn::Zero(d32);
-  HWY_ALIGN static constexpr int16_t kFirstGroup[32] = {3, 3, 3, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4,
-                                                        4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4};
-  const auto four = hn::Set(d, 4);
-  for (int32_t half = 0; half < 8; half += 4)  // two pairs of rows at once
-    for (size_t x = 0; x < 32; x += hn::Lanes(d)) {
-      const int16_t* at = samples + ras_sample_index(0, half) + x;
-      const auto row0 = FoldedResidual(d, at, four), row1 = FoldedResidual(d, at + kRasRowSamples, four);
-      const auto row2 = FoldedResidual(d, at + 2 * kRasRowSamples, four);
-      const auto row3 = FoldedResidual(d, at + 3 * kRasRowSamples, four);
-      const auto as64 = [&](decltype(row0) v) HWY_ATTR { return hn::BitCast(d64, v); };
-      // Even and odd pixels of the upper and the lower pair of rows: lane by lane the four residuals of a
-      // group.
-      const auto u0 = hn::BitCast(d, hn::InterleaveLower(d64, as64(row0), as64(row2)));
-      const auto u1 = hn::BitCast(d, hn::InterleaveUpper(d64, as64(row0), as64(row2)));
-      const auto u2 = hn::BitCast(d, hn::InterleaveLower(d64, as64(row1), as64(row3)));
-      const auto u3 = hn::BitCast(d, hn::InterleaveUpper(d64, as64(row1), as64(row3)));
-      const auto residuals = half == 0 && x == 0 ? hn::LoadU(d, kFirstGroup) : four;
-      auto best = GroupBits<0>(d, u0, u1, u2, u3, residuals);
-      best = hn::Min(best, GroupBits<1>(d, u0, u1, u2, u3, residuals));
-      best = hn::Min(best, GroupBits<2>(d, u0, u1, u2, u3, residuals));
-      best = hn::Min(best, GroupBits<3>(d, u0, u1, u2, u3, residuals));
-      best = hn::Min(best, GroupBits<4>(d, u0, u1, u2, u3, residuals));
-      best = hn::Min(best, GroupBits<5>(d, u0, u1, u2, u3, residuals));
-      best = hn::Min(best, GroupBits<6>(d, u0, u1, u2, u3, residuals));
-      const auto zero = hn::Eq(hn::Or(hn::Or(u0, u1), hn::Or(u2, u3)), hn::Zero(d));
-      best = hn::IfThenElse(zero, hn::Set(d, 3), best);
-      // Sum pairs of 16-bit lanes into 32-bit ones; a group's bits are positive and far below 2^15.
-      const auto pairs = hn::BitCast(d32, best);
-      total =
-          hn::Add(total, hn::Add(hn::ShiftRight<16>(pairs), hn::ShiftRight<16>(hn::ShiftLeft<16>(pairs))));
-    }
-  return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(d32, total)));
-}
-
 uint32_t ReplaceRow(const std::byte* words, uint32_t count, bool swap_red_blue, uint32_t set_bits,
                     uint32_t* row, uint8_t* changed_blocks) {
   const Words d;
@@ -373,17 +312,6 @@ uint32_t ReplaceRow(const std::byte* words, uint32_t count, bool swap_red_blue, 
       changed_blocks[(x + lane) / 8] |= static_cast<uint8_t>(places >> lane);
   }
   return changed + replace_words(words, x, count, swap_red_blue, set_bits, row, changed_blocks);
-}
-
-void WidenBytes(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, int16_t* HWY_RESTRICT samples) {
-  const Samples d;
-  const hn::Rebind<uint8_t, Samples> d8;
-  for (uint32_t y = 0; y < 8; ++y) {
-    const auto* row = reinterpret_cast<const uint8_t*>(top_left + size_t{y} * stride);
-    int16_t* out = samples + ras_sample_index(0, static_cast<int32_t>(y));
-    for (size_t x = 0; x < 32; x += hn::Lanes(d))
-      hn::StoreU(hn::PromoteTo(d, hn::LoadU(d8, row + x)), d, out + x);
-  }
 }
 
 const Kernels& Set(const char* name) {
