@@ -61,8 +61,8 @@ struct SurfaceEngine::State {
   std::vector<std::unique_ptr<Collector>> collectors;
   std::vector<Lane> lanes;
   PixelPlane now;
-  bool referred = false;  ///< now is the frame where it lies, and no copy
-  bool prefetches = false;
+  bool referred = false;    ///< now is the frame where it lies, and no copy
+  bool prefetches = false;  ///< rows of the next tiles are asked for
   RowPrefetch prefetch;
   uint64_t changed = 0;  ///< pixels, since the frame before
   RasMemo ras_memo;

@@ -3,13 +3,14 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
+
 namespace tilepress {
 
 std::byte* PixelMemory::reserve(size_t bytes) {
   if (bytes <= capacity_ && start_ != nullptr) return start_;
   unmap();
-  constexpr size_t kPage = 4096;
-  const size_t room = bytes > 0 ? (bytes + kPage - 1) / kPage * kPage : kPage;
+  const size_t room = std::max<size_t>(bytes, 1);
   void* found = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (found == MAP_FAILED) return nullptr;
   start_ = static_cast<std::byte*>(found);

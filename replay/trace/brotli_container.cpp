@@ -1,6 +1,7 @@
 // Brotli container: one brotli stream, without any signature.
 #include <brotli/decode.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "trace_container.h"
@@ -8,10 +9,9 @@
 namespace tilepress {
 namespace {
 
-/// Little at first, for who wants to see no more than how a file begins: the decoder hands out what it has
-/// when its input is used up.
-constexpr size_t kFirstInputBytes = 4 << 10;
-constexpr size_t kInputBytes = 64 << 10;
+/// Little at first, then twice as much each time, for who wants to see no more than how a file begins: the
+/// decoder hands out what it has when its input is used up.
+constexpr size_t kFirstInputBytes = 4 << 10, kInputBytes = 64 << 10;
 constexpr size_t kOutputBytes = 256 << 10;
 
 class BrotliContainer : public TraceContainer {
@@ -35,7 +35,7 @@ class BrotliContainer : public TraceContainer {
       if (result == BROTLI_DECODER_RESULT_SUCCESS) finished_ = true;
       if (result == BROTLI_DECODER_RESULT_ERROR) fault_ = ContainerEnd::kCorrupt;
       if (result != BROTLI_DECODER_RESULT_NEEDS_MORE_INPUT || room < plain_.size()) break;
-      if (from_ != nullptr) packed_.resize(kInputBytes);
+      if (from_ != nullptr) packed_.resize(std::min(2 * packed_.size(), kInputBytes));
       available_ = input_.read(packed_);
       from_ = packed_.data();
       if (available_ == 0) {

@@ -28,7 +28,7 @@ void change_some(std::vector<uint32_t>& colors, patterns::Dice& dice) {
   const uint32_t share = 1 + dice.below(16), one_in = 1 + dice.below(8);
   colors.resize(1 + dice.below(1u << dice.below(13)));
   for (size_t i = 1; i < colors.size(); ++i)
-    while (colors[i] == 0 || (dice.below(one_in) == 0 && (colors[i] * 0x9E3779B1u >> 28) + share < 16))
+    while (colors[i] == 0 || (dice.below(one_in) == 0 && ColorBucket::of(colors[i], 17) + share <= 16))
       colors[i] = dice.next();
 }
 
