@@ -1,9 +1,11 @@
-// RAS samples: four planes of a block, interleaved, with a border that makes the prediction rule uniform.
+// RAS samples: four planes of a block, interleaved, with a border that makes the prediction rule uniform; and
+// the codes of their groups.
 #pragma once
 
 #include <cstdint>
 #include <cstring>
 
+#include "tilepress/bit_io.h"
 #include "tilepress/block.h"
 #include "tilepress/pixel_format.h"
 
@@ -11,9 +13,25 @@ namespace tilepress {
 
 /// Samples are int16, pixel (x, y) plane c at ras_sample_index(x, y) + c, for x and y from -1 to 7.
 constexpr int32_t kRasRowSamples = 40;
+/// All samples are below, and none below its negative: Co and Cg of 10-bit channels take 11 bits.
+constexpr int32_t kRasMostSample = 2048;
 constexpr int32_t kRasSamples = 9 * kRasRowSamples;
 constexpr int32_t ras_sample_index(int32_t x, int32_t y) {
   return (y + 1) * kRasRowSamples + (x + 1) * 4;
+}
+
+constexpr uint16_t kRasZeroGroup = 7;  ///< the "special mode" of k
+constexpr uint16_t kRasLargestK = 6;
+
+/// What is written of a block of four planes, by group: number ras_group_index(plane, group) of each array.
+struct RasGroups {
+  alignas(64) uint16_t residuals[4][4 * kSubBlocks];  ///< of the group's pixels in order, folded
+  alignas(64) uint16_t k[4 * kSubBlocks];
+  alignas(64) uint64_t lengths[4 * kSubBlocks];  ///< bits of the group with its header
+  alignas(64) uint64_t codes[4 * kSubBlocks];    ///< these bits; of no meaning if more than kMaxBitsPerCall
+};
+constexpr uint32_t ras_group_index(uint32_t plane, uint32_t group) {
+  return group / 8 * 32 + group % 4 * 8 + group / 4 % 2 * 4 + plane;
 }
 
 /// Fills the border. The median of equal neighbours is that neighbour whatever the third is, so: above row 0

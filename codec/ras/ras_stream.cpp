@@ -1,7 +1,12 @@
-// RAS stream: planes, residuals, the choice of k, writing and reading.
+// RAS stream: planes, residuals, writing and reading. The choice of k is the kernels' (simd/kernels.h).
 #include "ras/ras_stream.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <iterator>
+#include <numeric>
 
 #include "ras/ras_samples.h"
 #include "simd/kernels.h"
@@ -9,79 +14,30 @@
 namespace tilepress {
 namespace {
 
-using Plane = std::array<int32_t, kBlockPixels>;
-using Residuals = std::array<uint32_t, kBlockPixels>;
-
-/// Prediction of pixel (x, y) from the pixels before it; not for (0, 0).
-int32_t predict(const Plane& plane, uint32_t x, uint32_t y) {
-  const int32_t* at = &plane[8 * y + x];
-  if (y == 0) return at[-1];
-  if (x == 0) return at[-8];
-  const int32_t a = at[-1], b = at[-8], c = at[-9];
-  if (c >= std::max(a, b)) return std::min(a, b);
-  if (c <= std::min(a, b)) return std::max(a, b);
-  return a + b - c;
-}
-
-uint32_t fold(int32_t e) {
-  return e >= 0 ? 2u * static_cast<uint32_t>(e) : 2u * static_cast<uint32_t>(-e) - 1;
-}
-int32_t unfold(uint32_t u) {
-  return (u & 1) != 0 ? -static_cast<int32_t>(u / 2) - 1 : static_cast<int32_t>(u / 2);
-}
-
-/// Folded residuals by raster position; position 0 holds 0.
-void residuals_of(const Plane& plane, Residuals& u) {
-  u[0] = 0;
-  for (uint32_t y = 0; y < kBlockSide; ++y)
-    for (uint32_t x = y == 0 ? 1 : 0; x < kBlockSide; ++x)
-      u[8 * y + x] = fold(plane[8 * y + x] - predict(plane, x, y));
-}
-
-struct GroupCode {
-  uint32_t k;
-  uint32_t bits;  ///< with the 3 bits of k
-};
-
 uint32_t group_begin(uint32_t group) {
   return group == 0 ? 1 : 0;
 }
 
-GroupCode choose_code(const Residuals& u, uint32_t group) {
-  uint32_t values[4], any = 0;
-  const uint32_t begin = group_begin(group);
-  for (uint32_t i = begin; i < 4; ++i) any |= values[i] = u[kTraversal[4 * group + i]];
-  if (any == 0) return {kRasZeroGroup, 3};
-  GroupCode best{0, ~0u};
-  for (uint32_t k = 0; k <= kRasLargestK; ++k) {
-    uint32_t bits = 3;
-    for (uint32_t i = begin; i < 4; ++i) bits += (values[i] >> k) + 1 + k;
-    if (bits < best.bits) best = {k, bits};
-  }
-  return best;
+/// How the planes of a format are stored.
+struct PlaneWidths {
+  uint32_t count = 0;
+  std::array<uint8_t, 4> first_bits{};  ///< bits of the plane's first pixel
+  std::array<bool, 4> is_signed{};      ///< Co and Cg: stored as two's complement
+};
+
+PlaneWidths plane_widths(const FormatTraits& format, bool ycocg) {
+  PlaneWidths planes{.count = format.channel_bits[3] != 0 ? 4u : 3u, .first_bits = format.channel_bits};
+  if (!ycocg) return planes;
+  const uint8_t widest = std::max({format.channel_bits[0], format.channel_bits[1], format.channel_bits[2]});
+  planes.first_bits[0] = widest;
+  planes.first_bits[1] = planes.first_bits[2] = static_cast<uint8_t>(widest + 1);
+  planes.is_signed[1] = planes.is_signed[2] = true;
+  return planes;
 }
 
-/// False: a channel is out of its range, so no block was encoded to these planes.
-bool join_planes(const RasPlanes& planes, const FormatTraits& format, bool ycocg, Block& out) {
-  uint32_t stray = 0;
-  for (uint32_t i = 0; i < kBlockPixels; ++i) {
-    int32_t value[4] = {};
-    for (uint32_t p = 0; p < planes.count; ++p) value[p] = planes.samples[p][i];
-    if (ycocg) {
-      const int32_t y = value[0], co = value[1], cg = value[2];
-      const int32_t t = y - (cg >> 1), g = cg + t, b = t - (co >> 1);
-      value[0] = b + co;
-      value[1] = g;
-      value[2] = b;
-    }
-    uint32_t word = 0;
-    for (int c = 0; c < 4; ++c) {
-      stray |= static_cast<uint32_t>(value[c]) >> format.channel_bits[c];
-      word |= static_cast<uint32_t>(value[c]) << format.channel_shift[c];
-    }
-    out.pixels[i] = word;
-  }
-  return stray == 0;
+/// Pixels are the samples themselves, byte by byte.
+bool samples_are_bytes(const FormatTraits& format, bool ycocg) {
+  return !ycocg && format.channel_bits[0] == 8;  // then all four are
 }
 
 /// The four plane values of a pixel; 0 for an absent plane.
@@ -95,38 +51,29 @@ void split_pixel(uint32_t word, const FormatTraits& format, bool ycocg, int32_t*
   value[2] = cg;
 }
 
-uint32_t plane_count(const FormatTraits& format) {
-  return format.channel_bits[3] != 0 ? 4 : 3;
-}
-
-void plane_widths(const FormatTraits& format, bool ycocg, RasPlanes& planes) {
-  planes.count = plane_count(format);
-  planes.is_signed.fill(false);
-  planes.first_bits = format.channel_bits;
-  if (!ycocg) return;
-  const uint8_t widest = std::max({format.channel_bits[0], format.channel_bits[1], format.channel_bits[2]});
-  planes.first_bits[0] = widest;
-  planes.first_bits[1] = planes.first_bits[2] = static_cast<uint8_t>(widest + 1);
-  planes.is_signed[1] = planes.is_signed[2] = true;
-}
-
-}  // namespace
-
-void split_planes(const Block& block, const FormatTraits& format, bool ycocg, RasPlanes& planes) {
-  plane_widths(format, ycocg, planes);
-  for (uint32_t i = 0; i < kBlockPixels; ++i) {
-    int32_t value[4];
-    split_pixel(block.pixels[i], format, ycocg, value);
-    for (uint32_t p = 0; p < planes.count; ++p) planes.samples[p][i] = value[p];
+/// The pixel of four plane values. `stray` gets bits set if a channel is out of its range: no pixel was split
+/// into these.
+uint32_t join_pixel(const int16_t* sample, const FormatTraits& format, bool ycocg, uint32_t& stray) {
+  int32_t value[4];
+  std::copy_n(sample, 4, value);
+  if (ycocg) {
+    const int32_t y = value[0], co = value[1], cg = value[2];
+    const int32_t t = y - (cg >> 1), g = cg + t, b = t - (co >> 1);
+    value[0] = b + co;
+    value[1] = g;
+    value[2] = b;
   }
+  uint32_t word = 0;
+  for (int c = 0; c < 4; ++c) {
+    stray |= static_cast<uint32_t>(value[c]) >> format.channel_bits[c];
+    word |= static_cast<uint32_t>(value[c]) << format.channel_shift[c];
+  }
+  return word;
 }
 
-uint32_t ras_stream_bits(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg) {
-  int16_t samples[kRasSamples];
-  RasPlanes planes;
-  plane_widths(format, ycocg, planes);
-  const bool four_bytes = format.channel_bits[0] == 8;  // then all four are
-  if (four_bytes && !ycocg) {
+void load_samples(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg,
+                  int16_t* samples) {
+  if (samples_are_bytes(format, ycocg)) {
     kernels().widen_bytes(top_left, stride, samples);
   } else {
     for (uint32_t y = 0; y < kBlockSide; ++y)
@@ -138,69 +85,162 @@ uint32_t ras_stream_bits(const uint32_t* top_left, uint32_t stride, const Format
       }
   }
   fill_ras_border(samples);
-  uint32_t bits = kernels().ras_code_bits(samples);
-  for (uint32_t p = 0; p < planes.count; ++p) bits += planes.first_bits[p];
-  return bits - (4 - planes.count) * kSubBlocks * 3;  // an absent plane is all zeros, 3 bits a group
+}
+
+constexpr uint32_t kZeroPlaneBits = kSubBlocks * 3;
+
+/// Bits of a stream whose groups, of four planes, take `group_bits`. An absent plane is all zeros.
+uint32_t stream_bits(uint32_t group_bits, const PlaneWidths& planes) {
+  for (uint32_t p = 0; p < planes.count; ++p) group_bits += planes.first_bits[p];
+  return group_bits - (4 - planes.count) * kZeroPlaneBits;
+}
+
+/// A BitWriter without a branch, for where eight bytes more than the bits take may be written. Begins with a
+/// byte.
+class RoomyWriter {
+ public:
+  static constexpr uint32_t kMostBits = 56;  ///< beside up to 7 of the byte begun
+  explicit RoomyWriter(uint8_t* at) : at_(at) {}
+  /// 1 ≤ count ≤ kMostBits.
+  void put(uint64_t value, uint32_t count) {
+    pending_ += count;
+    accumulator_ |= value << (64 - pending_);
+    const uint64_t bytes = bit_io::big_endian(accumulator_);
+    std::memcpy(at_, &bytes, sizeof bytes);
+    at_ += pending_ / 8;
+    accumulator_ <<= pending_ & ~7u;
+    pending_ %= 8;
+  }
+
+ private:
+  uint8_t* at_;
+  uint64_t accumulator_ = 0;  ///< bits of the byte begun, from the top
+  uint32_t pending_ = 0;      ///< their number
+};
+
+template <typename Writer>
+void write_planes(const int16_t* first, const RasGroups& groups, const PlaneWidths& planes, Writer& out) {
+  for (uint32_t p = 0; p < planes.count; ++p)
+    out.put(static_cast<uint32_t>(first[p]) & ((1u << planes.first_bits[p]) - 1), planes.first_bits[p]);
+  for (uint32_t p = 0; p < planes.count; ++p)
+    for (uint32_t group = 0; group < kSubBlocks; ++group) {
+      const uint32_t at = ras_group_index(p, group);
+      const auto length = static_cast<uint32_t>(groups.lengths[at]);
+      if (length <= RoomyWriter::kMostBits) {
+        out.put(groups.codes[at], length);
+        continue;
+      }
+      const uint32_t k = groups.k[at];
+      out.put(k, 3);
+      for (uint32_t i = group_begin(group); i < 4; ++i) {
+        const uint32_t value = groups.residuals[i][at];
+        for (uint32_t ones = value >> k; ones > 0; --ones) out.put(1, 1);
+        out.put(value & ((1u << k) - 1), k + 1);
+      }
+    }
+}
+
+}  // namespace
+
+uint32_t ras_stream_bits(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg) {
+  int16_t samples[kRasSamples];
+  load_samples(top_left, stride, format, ycocg, samples);
+  return stream_bits(kernels().ras_code_bits(samples), plane_widths(format, ycocg));
 }
 
 uint32_t ras_uniform_bits(const FormatTraits& format, bool ycocg) {
-  RasPlanes planes;
-  plane_widths(format, ycocg, planes);
-  uint32_t bits = planes.count * kSubBlocks * 3;
-  for (uint32_t p = 0; p < planes.count; ++p) bits += planes.first_bits[p];
-  return bits;
+  return stream_bits(4 * kZeroPlaneBits, plane_widths(format, ycocg));
 }
 
 void ras_stream_write(const Block& block, const FormatTraits& format, bool ycocg, BitWriter& out) {
-  RasPlanes planes;
-  split_planes(block, format, ycocg, planes);
-  for (uint32_t p = 0; p < planes.count; ++p)
-    out.put(static_cast<uint32_t>(planes.samples[p][0]) & ((1u << planes.first_bits[p]) - 1),
-            planes.first_bits[p]);
-  Residuals u;
-  for (uint32_t p = 0; p < planes.count; ++p) {
-    residuals_of(planes.samples[p], u);
-    for (uint32_t group = 0; group < kSubBlocks; ++group) {
-      const uint32_t k = choose_code(u, group).k;
-      out.put(k, 3);
-      if (k == kRasZeroGroup) continue;
-      for (uint32_t i = group_begin(group); i < 4; ++i) {
-        const uint32_t value = u[kTraversal[4 * group + i]];
-        out.put_unary(value >> k);
-        out.put(value & ((1u << k) - 1), k);
-      }
-    }
+  int16_t samples[kRasSamples];
+  load_samples(block.pixels.data(), kBlockSide, format, ycocg, samples);
+  RasGroups groups;
+  kernels().ras_groups(samples, groups);
+  const PlaneWidths planes = plane_widths(format, ycocg);
+  const int16_t* first = samples + ras_sample_index(0, 0);
+  const uint32_t bits = stream_bits(std::accumulate(groups.lengths, std::end(groups.lengths), 0u), planes);
+  if (uint8_t* to = out.at_byte(bits / 8 + 9)) {
+    RoomyWriter writer(to);
+    write_planes(first, groups, planes, writer);
+    out.wrote(bits);
+  } else {
+    write_planes(first, groups, planes, out);
   }
 }
 
+namespace {
+
+/// Reads the groups of a plane, of which `residuals` gets those that are not zero. False: one is beyond twice
+/// `largest`, a power of two that all are below. (What is in between makes a sample that is out of its
+/// range.)
+bool read_residuals(BitReader& stream, uint32_t largest, int16_t* residuals) {
+  BitReader in = stream;  // in registers
+  uint32_t any = 0;
+  for (uint32_t group = 0; group < kSubBlocks;) {
+    uint64_t window = in.peek();
+    const auto k = static_cast<uint32_t>(window >> 61);
+    if (k == kRasZeroGroup) {  // and the next ones, most often
+      const uint32_t count = std::min(static_cast<uint32_t>(std::countl_one(window)) / 3, kSubBlocks - group);
+      in.skip(3 * count);
+      group += count;
+      continue;
+    }
+    window <<= 3;
+    int16_t* const to = residuals + 4 * kTraversal[4 * group];
+    uint32_t i = group_begin(group), used = 3;
+    const auto take = [&](uint32_t high, uint32_t low) {
+      const uint32_t u = high << k | low;
+      any |= u;
+      to[4 * (i / 2 * kBlockSide + i % 2)] = static_cast<int16_t>(u >> 1 ^ (0 - (u & 1)));
+    };
+    for (; i < 4; ++i) {
+      const auto ones = static_cast<uint32_t>(std::countl_one(window));
+      if (used + ones + 1 + k > kMaxBitsPerCall) break;
+      used += ones + 1 + k;
+      window = window << ones << 1;
+      take(ones, static_cast<uint32_t>(window >> 1 >> (63 - k)));
+      window <<= k;
+    }
+    in.skip(used);
+    for (; i < 4; ++i) {  // what the window does not hold
+      const uint32_t high = in.get_unary(largest >> k);
+      take(high, static_cast<uint32_t>(in.get(k)));
+    }
+    ++group;
+  }
+  stream = in;
+  return any < 2 * largest;
+}
+
+/// False: a sample or a channel is out of its range, so no block was encoded to these samples.
+bool join_samples(const int16_t* samples, const FormatTraits& format, bool ycocg, Block& out) {
+  if (samples_are_bytes(format, ycocg)) return kernels().narrow_bytes(samples, out.pixels.data());
+  uint32_t stray = 0;
+  for (uint32_t i = 0; i < kBlockPixels; ++i) {
+    for (uint32_t p = 0; p < 4; ++p)
+      stray |= static_cast<uint32_t>(samples[4 * i + p] + kRasMostSample) & ~(2u * kRasMostSample - 1);
+    out.pixels[i] = join_pixel(samples + 4 * i, format, ycocg, stray);
+  }
+  return stray == 0;
+}
+
+}  // namespace
+
 bool ras_stream_read(BitReader& in, const FormatTraits& format, bool ycocg, Block& out) {
-  RasPlanes planes;
-  plane_widths(format, ycocg, planes);
+  const PlaneWidths planes = plane_widths(format, ycocg);
+  int16_t samples[4 * kBlockPixels] = {};
   for (uint32_t p = 0; p < planes.count; ++p) {
     const uint32_t bits = planes.first_bits[p];
     const auto raw = static_cast<int32_t>(in.get(bits));
-    planes.samples[p][0] = planes.is_signed[p] && raw >= 1 << (bits - 1) ? raw - (1 << bits) : raw;
+    samples[p] =
+        static_cast<int16_t>(planes.is_signed[p] && raw >= 1 << (bits - 1) ? raw - (1 << bits) : raw);
   }
-  for (uint32_t p = 0; p < planes.count; ++p) {
-    Residuals u{};
-    const uint32_t largest = 2u << planes.first_bits[p];
-    for (uint32_t group = 0; group < kSubBlocks; ++group) {
-      const auto k = static_cast<uint32_t>(in.get(3));
-      if (k == kRasZeroGroup) continue;
-      for (uint32_t i = group_begin(group); i < 4; ++i) {
-        const uint32_t high = in.get_unary(largest >> k);
-        if (high > largest >> k) return false;
-        u[kTraversal[4 * group + i]] = high << k | static_cast<uint32_t>(in.get(k));
-      }
-    }
-    Plane& plane = planes.samples[p];
-    for (uint32_t i = 1; i < kBlockPixels; ++i) {
-      plane[i] = predict(plane, i % 8, i / 8) + unfold(u[i]);
-      // Predictions stay between their neighbours, so 64 residuals of a bounded size cannot overflow.
-    }
-  }
+  for (uint32_t p = 0; p < planes.count; ++p)
+    if (!read_residuals(in, 2u << planes.first_bits[p], samples + p)) return false;
   if (in.overran()) return false;
-  return join_planes(planes, format, ycocg, out);
+  kernels().ras_restore(samples);
+  return join_samples(samples, format, ycocg, out);
 }
 
 }  // namespace tilepress

@@ -7,7 +7,6 @@
 // of the first pixel has three residuals.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "tilepress/bit_io.h"
@@ -15,20 +14,6 @@
 #include "tilepress/pixel_format.h"
 
 namespace tilepress {
-
-constexpr uint32_t kRasZeroGroup = 7;  ///< the "special mode" of k
-constexpr uint32_t kRasLargestK = 6;
-
-/// Planes of a block: samples by raster position, and how wide a first pixel is stored.
-struct RasPlanes {
-  uint32_t count = 0;
-  std::array<std::array<int32_t, kBlockPixels>, 4> samples;
-  std::array<uint8_t, 4> first_bits{};  ///< bits of the plane's first pixel
-  std::array<bool, 4> is_signed{};      ///< Co and Cg: stored as two's complement
-};
-
-/// Splits a block into planes. Requires R, G and B; with `ycocg` applies the reversible YCoCg-R transform.
-void split_planes(const Block& block, const FormatTraits& format, bool ycocg, RasPlanes& planes);
 
 /// Bits of the stream of the 8×8 block at `top_left` in a plane of `stride` words a row, not rounded.
 uint32_t ras_stream_bits(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "ras/ras_samples.h"
 #include "simd/color_buckets.h"
 #include "simd/probe_table.h"
 #include "simd/slot_table.h"
@@ -146,12 +147,22 @@ struct Kernels {
   /// samples: rows of 40 values, row -1 to 7; see ras_samples.h.
   uint32_t (*ras_code_bits)(const int16_t* samples);
 
+  /// The codes themselves.
+  void (*ras_groups)(const int16_t* samples, RasGroups& groups);
+
   /// Copies `count` words of 4 bytes, of any alignment, to `row`, bytes 0 and 2 of each exchanged if
   /// `swap_red_blue`, and the bits of `set_bits` set. Returns how many words of `row` were not the same
   /// before; where one of words 8b to 8b + 7 was not, changed_blocks[b] becomes other than 0 (null: not
   /// wanted).
   uint32_t (*replace_row)(const std::byte* words, uint32_t count, bool swap_red_blue, uint32_t set_bits,
                           uint32_t* row, uint8_t* changed_blocks);
+
+  /// From residuals, 4 planes a pixel, to samples: to each is added what its neighbours predict. Pixel (x, y)
+  /// is at 32 * y + 4 * x. Of residuals no encoder makes, the first sample out of its range is right.
+  void (*ras_restore)(int16_t* samples);
+
+  /// Samples of four 8-bit channels, as ras_restore leaves them, to pixels. False: one does not fit.
+  bool (*narrow_bytes)(const int16_t* samples, uint32_t* pixels);
 
   /// ras_samples of an 8×8 block of four 8-bit channels, borders left out.
   void (*widen_bytes)(const uint32_t* top_left, uint32_t stride, int16_t* samples);

@@ -339,7 +339,10 @@ const Kernels& Set(const char* name) {
       .run_begins = RunBegins,
       .count_runs = CountRuns,
       .ras_code_bits = RasCodeBits,
+      .ras_groups = WriteRasGroups,
       .replace_row = ReplaceRow,
+      .ras_restore = RestoreRasSamples,
+      .narrow_bytes = NarrowBytes,
       .widen_bytes = WidenBytes,
   };
   return kSet;

@@ -143,9 +143,8 @@ class BitReader {
   }
   uint64_t position() const { return position_; }
   bool overran() const { return position_ > end_; }
-
- private:
-  /// The bits from here on, at the top of the word: at least 57 of them, zeros past the end.
+  /// The bits from here on, at the top of the word: at least 57 of them, zeros past the end. Not
+  /// consumed.
   uint64_t peek() const {
     const uint64_t byte = position_ >> 3;
     uint64_t word = 0;
@@ -163,6 +162,8 @@ class BitReader {
     }
     return word;
   }
+
+ private:
   std::span<const uint8_t> buffer_;
   uint64_t end_;
   uint64_t position_ = 0;
