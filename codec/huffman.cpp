@@ -42,6 +42,7 @@ bool CanonicalCode::assign(std::span<const uint8_t> lengths) {
   codes_.assign(lengths.size(), 0);
   ordered_.clear();
   count_.fill(0);
+  table_.fill({});
   for (uint8_t length : lengths) {
     if (length == 0 || length > kMaxHuffmanLength) return false;
     ++count_[length];
@@ -55,6 +56,11 @@ bool CanonicalCode::assign(std::span<const uint8_t> lengths) {
     if (code + count_[length] > uint64_t{1} << length) return false;
     for (size_t i = 0; i < lengths.size(); ++i) {
       if (lengths[i] != length) continue;
+      if (length <= kTableBits) {
+        const uint32_t shift = kTableBits - length;
+        std::fill_n(table_.begin() + static_cast<ptrdiff_t>(code << shift), size_t{1} << shift,
+                    Entry{static_cast<uint16_t>(i), static_cast<uint8_t>(length)});
+      }
       codes_[i] = code++;
       ordered_.push_back(static_cast<uint16_t>(i));
     }
@@ -62,14 +68,12 @@ bool CanonicalCode::assign(std::span<const uint8_t> lengths) {
   return true;
 }
 
-bool CanonicalCode::read(BitReader& in, uint32_t& index) const {
-  uint64_t code = 0;
-  for (uint32_t length = 1; length <= kMaxHuffmanLength; ++length) {
-    code = code << 1 | in.get(1);
-    if (code >= first_code_[length] && code - first_code_[length] < count_[length]) {
-      index = ordered_[first_rank_[length] + (code - first_code_[length])];
-      return true;
-    }
+bool CanonicalCode::find_long(uint64_t window, uint32_t& index, uint32_t& length) const {
+  for (length = kTableBits + 1; length <= kMaxHuffmanLength; ++length) {
+    const uint64_t code = window >> (64 - length);
+    if (code < first_code_[length] || code - first_code_[length] >= count_[length]) continue;
+    index = ordered_[first_rank_[length] + (code - first_code_[length])];
+    return true;
   }
   return false;
 }

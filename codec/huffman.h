@@ -1,4 +1,4 @@
-// Huffman codes over a dictionary: lengths by the rule of spec §5, canonical codes, decoding bit by bit.
+// Huffman codes over a dictionary: lengths by the rule of spec §5, canonical codes, decoding by a table.
 #pragma once
 
 #include <array>
@@ -31,12 +31,51 @@ class CanonicalCode {
   uint64_t code(uint32_t index) const { return codes_[index]; }
   uint32_t length(uint32_t index) const { return lengths_[index]; }
   /// Reads one symbol. False: no code starts with these bits.
-  bool read(BitReader& in, uint32_t& index) const;
+  bool read(BitReader& in, uint32_t& index) const {
+    uint32_t length = 0;
+    if (!find(in.peek(), index, length)) return false;
+    in.skip(length);
+    return true;
+  }
+  /// Reads four, as read() does.
+  bool read_four(BitReader& in, uint32_t* indices) const {
+    uint64_t window = in.peek();
+    uint32_t taken = 0;
+    for (uint32_t i = 0; i < 4; ++i) {
+      const Entry entry = table_[window >> (64 - kTableBits)];
+      if (entry.length == 0) {  // not often
+        for (in.skip(taken); i < 4; ++i)
+          if (!read(in, indices[i])) return false;
+        return true;
+      }
+      indices[i] = entry.index;
+      window <<= entry.length;
+      taken += entry.length;
+    }
+    in.skip(taken);
+    return true;
+  }
 
  private:
+  static constexpr uint32_t kTableBits = 9;
+  static_assert(4 * kTableBits <= kMaxBitsPerCall);  // for read_four()
+  /// What a code of up to kTableBits bits stands for; length 0 where a longer one begins, or none.
+  struct Entry {
+    uint16_t index;
+    uint8_t length;
+  };
+  /// The code at the top of `window`, which holds kMaxBitsPerCall bits at least.
+  bool find(uint64_t window, uint32_t& index, uint32_t& length) const {
+    const Entry& entry = table_[window >> (64 - kTableBits)];
+    index = entry.index;
+    length = entry.length;
+    return length != 0 || find_long(window, index, length);
+  }
+  bool find_long(uint64_t window, uint32_t& index, uint32_t& length) const;
   std::vector<uint8_t> lengths_;
   std::vector<uint64_t> codes_;
-  std::vector<uint16_t> ordered_;  ///< indices by (length, index)
+  std::vector<uint16_t> ordered_;              ///< indices by (length, index)
+  std::array<Entry, 1u << kTableBits> table_;  ///< by the next bits
   std::array<uint64_t, kMaxHuffmanLength + 1> first_code_{};
   std::array<uint32_t, kMaxHuffmanLength + 1> first_rank_{}, count_{};
 };

@@ -1,16 +1,92 @@
-// DCP family decoder base: reads the rCCD that begins a frame.
+// DCP family decoder base: reads the rCCD that begins a frame, and blocks of indices into it.
 #include "dcp/dcp_family.h"
+
+#include <algorithm>
+
+#include "dcp/vdcp.h"
+#include "simd/kernels.h"
 
 namespace tilepress {
 
 bool DcpFamilyDecoder::begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) {
   rccd_ = Rccd{};
+  reads_at_once_ = false;
   off_ = csb_bits == 0;
   if (off_) return table_bits == 0;
   if (csb_bits != on_csb_bits()) return false;
   if (table_bits == 0) return true;  // no CCD yet: every sub-block is marked raw
   if (table_bits % (pixel_bits_ + 1) != 0) return false;
-  return rccd_.read(tables, table_bits / (pixel_bits_ + 1), pixel_bits_);
+  if (!rccd_.read(tables, table_bits / (pixel_bits_ + 1), pixel_bits_)) return false;
+  reads_at_once_ =
+      kernels().byte_permutes && index_bits_ <= kMaxWrittenBits && rccd_.colors.size() <= colors_.size();
+  if (reads_at_once_) std::copy(rccd_.colors.begin(), rccd_.colors.end(), colors_.begin());
+  return true;
+}
+
+bool DcpFamilyDecoder::read_sub_blocks(const uint64_t marks[2], uint32_t mark_bits, BitReader& payload,
+                                       Block& out) const {
+  const uint64_t all_raw = (uint64_t{1} << 8 * mark_bits) - 1;
+  if (marks[0] == all_raw && marks[1] == all_raw) {
+    read_raw_block(payload, pixel_bits_, out);
+    return !payload.overran();
+  }
+  if ((marks[0] == marks[1] && read_solid(marks[0], mark_bits, payload, out)) ||
+      (reads_at_once_ && read_at_once(marks, mark_bits, payload, out)))
+    return !payload.overran();
+  const uint32_t raw_mark = (1u << mark_bits) - 1;
+  for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+    const auto width = static_cast<uint32_t>(marks[sub / 8] >> (7 - sub % 8) * mark_bits & raw_mark);
+    if (width == raw_mark)
+      read_raw_sub_block(payload, sub, pixel_bits_, out);
+    else if (width > index_bits_ || !read_indices(width, sub, payload, out))
+      return false;
+  }
+  return !payload.overran();
+}
+
+/// A block that is all indices. False, and nothing is read, if it is none.
+bool DcpFamilyDecoder::read_at_once(const uint64_t marks[2], uint32_t mark_bits, BitReader& payload,
+                                    Block& out) const {
+  const uint8_t* bytes = payload.at_byte(64);
+  if (bytes == nullptr) return false;
+  const auto known = static_cast<uint32_t>(rccd_.colors.size());
+  const uint32_t bits =
+      kernels().read_indices(bytes, marks, mark_bits, index_bits_, colors_.data(), known, out.pixels.data());
+  if (bits == kNotAllIndices) return false;
+  payload.skip(bits);
+  return true;
+}
+
+/// Blocks of one colour are common, and quicker to fill than to look up pixel by pixel. False, and nothing is
+/// read, if this is none. `marks` are those of either half.
+bool DcpFamilyDecoder::read_solid(uint64_t marks, uint32_t mark_bits, BitReader& payload, Block& out) const {
+  const uint64_t width = marks & ((1u << mark_bits) - 1);
+  if (width > index_bits_ || marks >> mark_bits != (marks & ((uint64_t{1} << 7 * mark_bits) - 1)))
+    return false;
+  const uint32_t at_once = 8 * width <= kMaxBitsPerCall ? 8 : 4;
+  const auto bits = static_cast<uint32_t>(at_once * width);
+  BitReader in = payload;
+  const uint64_t indices = in.get(bits);
+  for (uint32_t i = at_once; i < kBlockPixels && width != 0; i += at_once)
+    if (in.get(bits) != indices) return false;
+  const uint64_t index = indices & ((uint64_t{1} << width) - 1);
+  const bool alike = indices >> width == (indices & ((uint64_t{1} << (at_once - 1) * width) - 1));
+  if (!alike || index >= rccd_.colors.size()) return false;
+  out.pixels.fill(rccd_.colors[index]);
+  payload = in;
+  return true;
+}
+
+/// A sub-block of indices of `width` ≤ 10 bits. False: one is beyond the rCCD.
+bool DcpFamilyDecoder::read_indices(uint32_t width, uint32_t sub, BitReader& payload, Block& out) const {
+  const uint64_t indices = payload.get(kSubBlockPixels * width);
+  const uint64_t mask = (uint64_t{1} << width) - 1;
+  for (uint32_t i = 0; i < kSubBlockPixels; ++i) {
+    const uint64_t index = indices >> (3 - i) * width & mask;
+    if (index >= rccd_.colors.size()) return false;
+    out.pixels[sub_block_pixel(sub, i)] = rccd_.colors[index];
+  }
+  return true;
 }
 
 }  // namespace tilepress

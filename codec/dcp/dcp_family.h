@@ -1,6 +1,7 @@
 // What the schemes of the DCP family share: the CCD in force, dynamic enabling, the rCCD.
 #pragma once
 
+#include <array>
 #include <bit>
 
 #include "dcp/ccd.h"
@@ -47,16 +48,20 @@ class DcpFamilyDecoder : public BlockDecoder {
  protected:
   /// CSB bits a block has when the scheme is on.
   virtual uint32_t on_csb_bits() const = 0;
-  /// Colour of an index; false if the rCCD has no such entry.
-  bool color_of(uint64_t index, uint32_t& color) const {
-    if (index >= rccd_.colors.size()) return false;
-    color = rccd_.colors[index];
-    return true;
-  }
+  /// Reads a block. `marks`, of eight sub-blocks each and `mark_bits` ≤ 7 bits a mark, have the width of its
+  /// indices for each, all ones for a raw one. False: a width over M, an index beyond the rCCD, too few bits.
+  bool read_sub_blocks(const uint64_t marks[2], uint32_t mark_bits, BitReader& payload, Block& out) const;
   const uint32_t index_bits_;
   const uint32_t pixel_bits_;
   Rccd rccd_;
   bool off_ = false;
+
+ private:
+  bool read_solid(uint64_t marks, uint32_t mark_bits, BitReader& payload, Block& out) const;
+  bool read_at_once(const uint64_t marks[2], uint32_t mark_bits, BitReader& payload, Block& out) const;
+  bool read_indices(uint32_t width, uint32_t sub, BitReader& payload, Block& out) const;
+  bool reads_at_once_ = false;
+  std::array<uint32_t, SlotTable::kSlots> colors_{};  ///< of the rCCD, if it reads at once
 };
 
 }  // namespace tilepress

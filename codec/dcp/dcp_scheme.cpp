@@ -4,8 +4,12 @@
 //   payload   per sub-block: compressed  4 × width bits of CCD index
 //                            raw         4 × pixel bits
 //   tables    2^width rCCD slots (dcp: width = M = log2 N; adcp: width from Algorithm 1)
+#include <array>
+#include <cstring>
+
 #include "dcp/algorithm1.h"
 #include "dcp/dcp_family.h"
+#include "dcp/vdcp.h"
 #include "scheme_factory.h"
 #include "simd/kernels.h"
 
@@ -34,23 +38,37 @@ class DcpEncoder : public DcpFamilyEncoder {
     return kSubBlockPixels * (compressed * width_ + (kSubBlocks - compressed) * pixel_bits_);
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
-    for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-      const bool compressed = active() && fits(block, sub);
-      if (!off_) csb.put(compressed, 1);
-      if (!compressed) {
-        write_raw_pixels(block.pixels + sub * kSubBlockPixels, kSubBlockPixels, pixel_bits_, payload);
-        continue;
-      }
-      for (uint32_t i = 0; i < kSubBlockPixels; ++i)
-        payload.put(block.ccd_indices[sub * kSubBlockPixels + i], width_);
-    }
+    uint8_t widths[kSubBlocks];
+    const uint32_t marks = choose_widths(block, widths);
+    if (!off_) csb.put(marks, kSubBlocks);
+    write_indices(block, widths, width_, pixel_bits_, payload);
+  }
+  StoredBlock store(const BlockContext& block, std::span<uint8_t> slot,
+                    std::span<uint8_t> csb) const override {
+    if (off_ || !writes_at_once(width_, pixel_bits_)) return BlockEncoder::store(block, slot, csb);
+    uint8_t widths[kSubBlocks];
+    const uint64_t marks = bit_io::big_endian(uint64_t{choose_widths(block, widths)} << (64 - kSubBlocks));
+    std::memcpy(csb.data(), &marks, sizeof marks);
+    const WrittenBlock written =
+        kernels().write_sub_blocks(block.pixels, block.ccd_indices, widths, kMaxWrittenBits, slot.data());
+    return {written.bits, written.clean_bytes};
   }
 
  protected:
   virtual uint32_t choose_width() const { return index_bits_; }
 
  private:
-  bool fits(const BlockContext& block, uint32_t sub) const { return block.ccd_widths[sub] <= width_; }
+  /// Widths of the sub-blocks: that of the frame, or kRawWidth. Returns the CSB bits.
+  uint32_t choose_widths(const BlockContext& block, uint8_t* widths) const {
+    uint32_t marks = 0;
+    const uint8_t* needed = vdcp_widths(block, active());
+    for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+      const bool compressed = needed[sub] <= width_;
+      widths[sub] = compressed ? static_cast<uint8_t>(width_) : kRawWidth;
+      marks = marks << 1 | (compressed ? 1u : 0u);
+    }
+    return marks;
+  }
   uint32_t width_ = 0;
 };
 
@@ -70,21 +88,28 @@ class DcpDecoder final : public DcpFamilyDecoder {
   DcpDecoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions&)
       : DcpFamilyDecoder(spec, format) {}
 
-  bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
+  bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override {
+    if (!DcpFamilyDecoder::begin_frame(tables, table_bits, csb_bits)) return false;
     const uint32_t width = rccd_.slots == 0 ? 0 : static_cast<uint32_t>(std::bit_width(rccd_.slots) - 1);
-    for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-      if (off_ || csb.get(1) == 0) {
-        read_raw_sub_block(payload, sub, pixel_bits_, out);
-        continue;
-      }
-      for (uint32_t i = 0; i < kSubBlockPixels; ++i)
-        if (!color_of(payload.get(width), out.pixels[sub_block_pixel(sub, i)])) return false;
+    for (uint32_t bits = 0; bits < marks_.size(); ++bits) {
+      marks_[bits] = 0;
+      for (uint32_t bit = 0x80; bit != 0; bit >>= 1)
+        marks_[bits] = marks_[bits] << kMarkBits | ((bits & bit) != 0 ? width : kRawMark);
     }
-    return !csb.overran() && !payload.overran();
+    return true;
+  }
+  bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
+    const uint64_t bits = off_ ? 0 : csb.get(kSubBlocks);
+    const uint64_t marks[2] = {marks_[bits >> 8], marks_[bits & 0xFF]};
+    return !csb.overran() && read_sub_blocks(marks, kMarkBits, payload, out);
   }
 
  protected:
   uint32_t on_csb_bits() const override { return kSubBlocks; }
+
+ private:
+  static constexpr uint32_t kMarkBits = 4, kRawMark = 15;
+  std::array<uint64_t, 256> marks_{};  ///< of read_sub_blocks, by the CSB bits of eight sub-blocks
 };
 
 }  // namespace

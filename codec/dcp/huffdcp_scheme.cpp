@@ -50,18 +50,31 @@ class HuffDcpEncoder final : public DcpFamilyEncoder {
     return bits;
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
+    BitWriter out = payload;  // a copy stays in registers
+    uint32_t marks = 0;
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-      const bool compressed = active() && sub_block_bits(block, sub) < raw_sub_block_bits();
-      if (!off_) csb.put(compressed, 1);
-      if (!compressed) {
-        write_raw_pixels(block.pixels + sub * kSubBlockPixels, kSubBlockPixels, pixel_bits_, payload);
+      const uint32_t bits = active() ? sub_block_bits(block, sub) : raw_sub_block_bits();
+      marks <<= 1;
+      if (bits == raw_sub_block_bits()) {
+        write_raw_pixels(block.pixels + sub * kSubBlockPixels, kSubBlockPixels, pixel_bits_, out);
         continue;
       }
+      marks |= 1;
+      uint64_t codes = 0;  // those not written yet
+      uint32_t length = 0;
       for (uint32_t i = 0; i < kSubBlockPixels; ++i) {
         const uint32_t index = block.ccd_indices[sub * kSubBlockPixels + i];
-        payload.put(code_.code(index), code_.length(index));
+        if (length + code_.length(index) > kMaxBitsPerCall) {
+          out.put(codes, length);
+          codes = length = 0;
+        }
+        codes = codes << code_.length(index) | code_.code(index);
+        length += code_.length(index);
       }
+      out.put(codes, length);
     }
+    payload = out;
+    if (!off_) csb.put(marks, kSubBlocks);
   }
 
  private:
@@ -98,17 +111,24 @@ class HuffDcpDecoder final : public DcpFamilyDecoder {
     return !tables.overran() && code_.assign(lengths);
   }
   bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
-    for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-      if (off_ || csb.get(1) == 0) {
-        read_raw_sub_block(payload, sub, pixel_bits_, out);
+    const uint64_t marks = off_ ? 0 : csb.get(kSubBlocks);
+    if (marks == 0) {
+      read_raw_block(payload, pixel_bits_, out);
+      return !csb.overran() && !payload.overran();
+    }
+    BitReader in = payload;  // a copy stays in registers
+    SubBlock last;
+    for (uint32_t sub = 0; sub < kSubBlocks;) {
+      if ((marks >> (kSubBlocks - 1 - sub) & 1) == 0) {
+        read_raw_sub_block(in, sub++, pixel_bits_, out);
         continue;
       }
-      for (uint32_t i = 0; i < kSubBlockPixels; ++i) {
-        uint32_t index = 0;
-        if (!code_.read(payload, index) || !color_of(index, out.pixels[sub_block_pixel(sub, i)]))
-          return false;
-      }
+      if (!read_sub_block(in, last)) return false;
+      const uint32_t end = sub + 1 + skip_alike(marks << (sub + 1) & kAllMarks, last, in);
+      for (; sub < end; ++sub)
+        for (uint32_t i = 0; i < kSubBlockPixels; ++i) out.pixels[sub_block_pixel(sub, i)] = last.color[i];
     }
+    payload = in;
     return !csb.overran() && !payload.overran();
   }
 
@@ -116,6 +136,37 @@ class HuffDcpDecoder final : public DcpFamilyDecoder {
   uint32_t on_csb_bits() const override { return kSubBlocks; }
 
  private:
+  struct SubBlock {
+    uint32_t color[kSubBlockPixels];
+    uint64_t codes;
+    uint32_t length;  ///< of the codes together; 0: too many to compare
+  };
+  bool read_sub_block(BitReader& in, SubBlock& out) const {
+    const uint64_t window = in.peek(), begin = in.position();
+    uint32_t indices[kSubBlockPixels];
+    if (!code_.read_four(in, indices)) return false;
+    for (uint32_t i = 0; i < kSubBlockPixels; ++i)
+      out.color[i] = rccd_.colors[indices[i]];  // there are as many codes
+    const uint64_t bits = in.position() - begin;
+    out.length = bits <= kMaxBitsPerCall ? static_cast<uint32_t>(bits) : 0;
+    out.codes = out.length == 0 ? 0 : window >> (64 - out.length);
+    return true;
+  }
+  /// Skips the sub-blocks of the same codes that follow, which are of the same colours; returns how many. The
+  /// uppermost of kAllMarks is the next one's mark.
+  static uint32_t skip_alike(uint64_t marks, const SubBlock& sub_block, BitReader& stream) {
+    BitReader in = stream;  // in registers
+    const uint64_t codes = sub_block.codes;
+    const uint32_t length = sub_block.length;
+    uint32_t count = 0;
+    for (; length != 0 && marks >> (kSubBlocks - 1) != 0; marks = marks << 1 & kAllMarks, ++count) {
+      if (in.peek() >> (64 - length) != codes) break;
+      in.skip(length);
+    }
+    stream = in;
+    return count;
+  }
+  static constexpr uint64_t kAllMarks = (1u << kSubBlocks) - 1;
   CanonicalCode code_;
 };
 

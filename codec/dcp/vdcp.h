@@ -1,12 +1,15 @@
-// VDCP sub-blocks: the width of a sub-block's indices, shared by VDCP and the hybrid.
+// VDCP sub-blocks: the width of a sub-block's indices, shared by VDCP and the hybrid; and how all that have
+// indices of a width write them.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <cstring>
 
-#include "dcp/dcp_family.h"
+#include "raw_bits.h"
+#include "simd/index_widths.h"
 #include "simd/kernels.h"
+#include "tilepress/scheme.h"
 
 namespace tilepress {
 
@@ -46,35 +49,19 @@ inline const uint8_t* vdcp_widths(const BlockContext& block, bool look_up) {
   return look_up ? block.ccd_widths : kAllRawWidths.data();
 }
 
-/// Whether vdcp_write() may be used.
-inline bool vdcp_writes_at_once(uint32_t index_bits, uint32_t pixel_bits) {
+/// Whether Kernels::write_sub_blocks may be used.
+inline bool writes_at_once(uint32_t index_bits, uint32_t pixel_bits) {
   return pixel_bits == 32 && index_bits <= kMaxWrittenBits && kernels().byte_permutes;
 }
 
-/// Writes a block by one kernel, see Kernels::write_sub_blocks.
-inline WrittenBlock vdcp_write(const BlockContext& block, bool look_up, uint32_t csb_width, uint8_t* out) {
-  const uint8_t* widths = vdcp_widths(block, look_up);
-  return kernels().write_sub_blocks(block.pixels, block.ccd_indices, widths, csb_width, out);
-}
-
-/// Writes a block: per sub-block `csb_width` ≤ 5 CSB bits holding the width, or all ones for a raw one.
-/// `look_up` = false: all raw. Indices have at most `index_bits` bits.
-inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t index_bits, uint32_t pixel_bits,
-                        uint32_t csb_width, BitWriter& payload, BitWriter& csb) {
-  const uint32_t half_bits = kSubBlocks / 2 * csb_width;
-  if (vdcp_writes_at_once(index_bits, pixel_bits))
-    if (uint8_t* out = payload.at_byte(kMaxRawBlockBits / 8); out != nullptr) {
-      const WrittenBlock written = vdcp_write(block, look_up, csb_width, out);
-      for (const uint64_t marks : written.marks) csb.put(marks, half_bits);
-      return payload.wrote(written.bits);
-    }
-  const uint8_t* widths = vdcp_widths(block, look_up);
-  for (uint32_t half = 0; half < kSubBlocks; half += kSubBlocks / 2) {
-    uint64_t marks = 0;
-    for (uint32_t sub = half; sub < half + kSubBlocks / 2; ++sub)
-      marks = marks << csb_width | (widths[sub] & ((1u << csb_width) - 1));  // all ones of kRawWidth
-    csb.put(marks, half_bits);
-  }
+/// Writes the payload of a block: of each sub-block its indices, as many bits each as `widths` says, at most
+/// `index_bits`, or its pixels where that is kRawWidth.
+inline void write_indices(const BlockContext& block, const uint8_t* widths, uint32_t index_bits,
+                          uint32_t pixel_bits, BitWriter& payload) {
+  if (writes_at_once(index_bits, pixel_bits))
+    if (uint8_t* out = payload.at_byte(kMaxRawBlockBits / 8); out != nullptr)
+      return payload.wrote(
+          kernels().write_sub_blocks(block.pixels, block.ccd_indices, widths, kMaxWrittenBits, out).bits);
   if (block.uniform && widths[0] != kRawWidth) {  // sixteen equal sub-blocks
     const uint64_t index = block.ccd_indices[0];
     const uint32_t width = widths[0];
@@ -86,7 +73,7 @@ inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t index_
     return;
   }
   uint32_t packed[kSubBlocks];
-  const bool pairs = look_up && index_bits <= kMaxPairedBits;
+  const bool pairs = block.ccd_indices != nullptr && index_bits <= kMaxPairedBits;
   if (pairs) kernels().pack(block.ccd_indices, widths, packed);
   BitWriter out = payload;
   for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
@@ -111,21 +98,18 @@ inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t index_
   payload = out;
 }
 
-/// Reads one sub-block whose CSB holds `width` ≤ 10 (not the raw mark). False: an index beyond the rCCD.
-inline bool vdcp_decode_sub_block(const Rccd& rccd, uint32_t width, uint32_t sub, BitReader& payload,
-                                  Block& out) {
-  const uint64_t indices = payload.get(kSubBlockPixels * width);
-  const uint64_t mask = (uint64_t{1} << width) - 1;
-  uint64_t largest = 0, index[kSubBlockPixels];
-  for (uint32_t i = 0; i < kSubBlockPixels; ++i) {
-    index[i] = indices >> (3 - i) * width & mask;
-    largest |= index[i];
+/// Writes a block as VDCP does: per sub-block `csb_width` ≤ 5 CSB bits holding the width, or all ones for a
+/// raw one. `look_up` = false: all raw.
+inline void vdcp_encode(const BlockContext& block, bool look_up, uint32_t index_bits, uint32_t pixel_bits,
+                        uint32_t csb_width, BitWriter& payload, BitWriter& csb) {
+  const uint8_t* widths = vdcp_widths(block, look_up);
+  for (uint32_t half = 0; half < kSubBlocks; half += kSubBlocks / 2) {
+    uint64_t marks = 0;
+    for (uint32_t sub = half; sub < half + kSubBlocks / 2; ++sub)
+      marks = marks << csb_width | (widths[sub] & ((1u << csb_width) - 1));  // all ones of kRawWidth
+    csb.put(marks, kSubBlocks / 2 * csb_width);
   }
-  if (largest >= rccd.colors.size())  // at least one index may be; look again
-    for (const uint64_t each : index)
-      if (each >= rccd.colors.size()) return false;
-  for (uint32_t i = 0; i < kSubBlockPixels; ++i) out.pixels[sub_block_pixel(sub, i)] = rccd.colors[index[i]];
-  return true;
+  write_indices(block, widths, index_bits, pixel_bits, payload);
 }
 
 }  // namespace tilepress

@@ -5,6 +5,7 @@
 //   payload   of the scheme chosen
 //   tables    N rCCD slots
 // Where the coverage threshold switches DCP off, the frame is a frame of RAS: 2 CSB bits a block, no tables.
+#include "dcp/dcp_family.h"
 #include "dcp/vdcp.h"
 #include "ras/ras_block.h"
 #include "scheme_factory.h"
@@ -15,6 +16,8 @@ namespace {
 constexpr uint32_t kSubBlockCsbBits = 5;
 constexpr uint32_t kRawMark = 31;
 constexpr uint32_t kRasMark = 16;
+/// Times a mark: that mark for each sub-block of half a block.
+constexpr uint64_t kEachOfHalf = 0x0842108421;
 
 class HdcpEncoder final : public DcpFamilyEncoder {
  public:
@@ -39,7 +42,8 @@ class HdcpEncoder final : public DcpFamilyEncoder {
     if (off_)
       csb.put(cls, classes_.csb_bits());
     else
-      for (uint32_t sub = 0; sub < kSubBlocks; ++sub) csb.put(kRasMark + cls, kSubBlockCsbBits);
+      for (uint32_t half = 0; half < 2; ++half)
+        csb.put((kRasMark + cls) * kEachOfHalf, kSubBlocks / 2 * kSubBlockCsbBits);
     ras_block_write(block, cls, classes_, format_, false, payload);
   }
   void account(const BlockContext& block, uint32_t, SchemeStatistics& statistics) const override {
@@ -83,21 +87,13 @@ class HdcpDecoder final : public DcpFamilyDecoder {
       const auto cls = static_cast<uint32_t>(csb.get(classes_.csb_bits()));
       return !csb.overran() && ras_block_read(payload, cls, classes_, format_, false, out);
     }
-    uint32_t marks[kSubBlocks];
-    for (uint32_t& mark : marks) mark = static_cast<uint32_t>(csb.get(kSubBlockCsbBits));
+    uint64_t marks[2];
+    for (uint64_t& half : marks) half = csb.get(kSubBlocks / 2 * kSubBlockCsbBits);
     if (csb.overran()) return false;
-    if (marks[0] >= kRasMark && marks[0] != kRawMark) {
-      for (uint32_t mark : marks)
-        if (mark != marks[0]) return false;
-      return ras_block_read(payload, marks[0] - kRasMark, classes_, format_, false, out);
-    }
-    for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
-      if (marks[sub] == kRawMark)
-        read_raw_sub_block(payload, sub, pixel_bits_, out);
-      else if (marks[sub] > index_bits_ || !vdcp_decode_sub_block(rccd_, marks[sub], sub, payload, out))
-        return false;
-    }
-    return !payload.overran();
+    const auto mark = static_cast<uint32_t>(marks[0] & kRawMark);
+    if (mark < kRasMark || mark == kRawMark) return read_sub_blocks(marks, kSubBlockCsbBits, payload, out);
+    return marks[0] == marks[1] && marks[0] == mark * kEachOfHalf &&
+           ras_block_read(payload, mark - kRasMark, classes_, format_, false, out);
   }
 
  protected:
