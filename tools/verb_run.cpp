@@ -152,9 +152,8 @@ Harvest harvest(const SessionFolder& session, const ChildEnd& child, bool quiet)
     RunRecord record;
     std::string error;
     const bool running = process.pid != child.pid && kill(process.pid, 0) == 0;
-    const bool good = running ? read_run(process.run_path, record, error)
-                              : close_run(process.run_path, end_of(process.pid, child), record, error);
-    if (!good) {
+    if (!read_run(process.run_path, record, error) ||
+        (!running && !close_run(end_of(process.pid, child), record, error))) {
       out.failures.push_back(error);
       continue;
     }

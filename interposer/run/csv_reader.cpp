@@ -4,30 +4,37 @@
 namespace tilepress {
 
 bool CsvReader::next(std::vector<std::string>& fields) {
-  fields.clear();
-  fields.emplace_back();
+  size_t count = 0;
+  const auto begin_field = [&] {  // in memory of the record before
+    if (count < fields.size())
+      fields[count].clear();
+    else
+      fields.emplace_back();
+    ++count;
+  };
+  begin_field();
   bool quoted = false;
   for (size_t i = offset_; i < text_.size(); ++i) {
+    const size_t begin = i;
+    while (i < text_.size() && text_[i] != '"' &&
+           (quoted || (text_[i] != ',' && text_[i] != '\n' && text_[i] != '\r')))
+      ++i;
+    std::string& field = fields[count - 1];
+    field.append(text_.substr(begin, i - begin));
+    if (i == text_.size()) break;
     const char c = text_[i];
-    if (quoted) {
-      if (c != '"') {
-        fields.back() += c;
-      } else if (i + 1 < text_.size() && text_[i + 1] == '"') {
-        fields.back() += c;
-        ++i;
-      } else {
-        quoted = false;
-      }
-    } else if (c == '"') {
-      quoted = true;
+    if (c == '"') {
+      if (quoted && i + 1 < text_.size() && text_[i + 1] == '"')
+        field += text_[++i];
+      else
+        quoted = !quoted;
     } else if (c == ',') {
-      fields.emplace_back();
+      begin_field();
     } else if (c == '\n') {
       offset_ = i + 1;
       ++record_;
+      fields.resize(count);
       return true;
-    } else if (c != '\r') {
-      fields.back() += c;
     }
   }
   fields.clear();

@@ -44,21 +44,24 @@ class Table {
     if (!reader_.next(header_)) return;
     for (size_t i = 0; i < header_.size(); ++i) columns_[header_[i]] = i;
   }
-  bool next() { return reader_.next(fields_); }
+  bool next() {
+    likely_ = 0;
+    return reader_.next(fields_);
+  }
   size_t offset() const { return reader_.offset(); }
   /// What is wrong with the record, empty if nothing.
   std::string fault() const {
     return fault_.empty() ? "" : "record " + std::to_string(reader_.record()) + ": " + fault_;
   }
-  bool has(const char* name) const { return columns_.count(name) > 0; }
+  bool has(const char* name) { return column_of(name) < header_.size(); }
   const std::string& text(const char* name) {
     static const std::string kNothing;
-    const auto column = columns_.find(name);
-    if (column == columns_.end() || column->second >= fields_.size()) {
+    const size_t column = column_of(name);
+    if (column >= fields_.size()) {
       fault_ = std::string("no field ") + name;
       return kNothing;
     }
-    return fields_[column->second];
+    return fields_[column];
   }
   template <typename T>
   T number(const char* name) {
@@ -75,9 +78,19 @@ class Table {
   }
 
  private:
+  /// As many as there are if none has the name. Columns are asked for in order, most often.
+  size_t column_of(const char* name) {
+    for (const size_t guess : {likely_, likely_ - 1})
+      if (guess < header_.size() && header_[guess] == name) return likely_ = guess + 1, guess;
+    const auto found = columns_.find(name);
+    if (found == columns_.end()) return header_.size();
+    likely_ = found->second + 1;
+    return found->second;
+  }
   CsvReader reader_;
   std::vector<std::string> header_, fields_;
   std::map<std::string, size_t, std::less<>> columns_;
+  size_t likely_ = 0;  ///< column after the one asked for last
   std::string fault_;
 };
 
@@ -91,15 +104,9 @@ std::optional<PixelFormat> format_of(const std::string& name) {
   return std::nullopt;
 }
 
-/// Both files as far as they are complete.
-struct Tables {
-  std::string frames_text, schemes_text;
-  size_t frames_end = 0, schemes_end = 0;  ///< bytes that belong to complete frames
-};
-
-bool read_frames(Tables& tables, RunRecord& out, std::string& error) {
-  Table table(tables.frames_text);
-  tables.frames_end = table.offset();
+bool read_frames(std::string_view text, RunRecord& out, std::string& error) {
+  Table table(text);
+  out.frames_bytes = table.offset();
   while (table.next()) {
     FrameStatistics frame;
     frame.frame = table.number<uint64_t>("frame");
@@ -126,23 +133,26 @@ bool read_frames(Tables& tables, RunRecord& out, std::string& error) {
     }
     frame.format = *format;
     out.frames.push_back(std::move(frame));
-    tables.frames_end = table.offset();
+    out.frames_bytes = table.offset();
   }
   return true;
 }
 
-bool read_schemes(Tables& tables, RunRecord& out, std::string& error) {
+bool read_schemes(std::string_view text, RunRecord& out, std::string& error) {
   std::map<FrameKey, size_t> frame_index;
   for (size_t i = 0; i < out.frames.size(); ++i)
     frame_index[{out.frames[i].surface, out.frames[i].frame}] = i;
   std::map<std::string, size_t> scheme_index;
   for (size_t i = 0; i < out.scheme_names.size(); ++i) scheme_index[out.scheme_names[i]] = i;
 
-  Table table(tables.schemes_text);
-  tables.schemes_end = table.offset();
+  Table table(text);
+  out.schemes_bytes = table.offset();
+  auto frame = frame_index.end();
   while (table.next()) {
     SchemeStatistics row;
-    const auto frame = frame_index.find({table.number<uint64_t>("surface"), table.number<uint64_t>("frame")});
+    const auto number = table.number<uint64_t>("frame");
+    const FrameKey key{table.number<uint64_t>("surface"), number};
+    if (frame == frame_index.end() || frame->first != key) frame = frame_index.find(key);
     const std::string name = table.text("scheme");
     row.blocks = table.number<uint64_t>("blocks");
     row.raw_bits = table.number<uint64_t>("raw_bits");
@@ -161,7 +171,7 @@ bool read_schemes(Tables& tables, RunRecord& out, std::string& error) {
       return false;
     }
     if (frame == frame_index.end()) continue;
-    tables.schemes_end = table.offset();
+    out.schemes_bytes = table.offset();
     const auto [position, added] = scheme_index.try_emplace(name, out.scheme_names.size());
     if (added) out.scheme_names.push_back(name);
     FrameStatistics& owner = out.frames[frame->second];
@@ -171,43 +181,10 @@ bool read_schemes(Tables& tables, RunRecord& out, std::string& error) {
   return true;
 }
 
-bool read_tables(const std::string& path, RunRecord& out, Tables& tables, std::string& error) {
-  out = RunRecord{};
-  out.path = path;
-  if (!holds_run(path)) {
-    error = path + ": holds no run";
-    return false;
-  }
-  std::string json, reason;
-  if (read_text(path + "/run.json", json, reason) && !read_run_json(json, out, reason)) {
-    error = path + "/run.json: " + reason;
-    return false;
-  }
-  for (const char* name : {"frames.csv", "schemes.csv"}) {
-    std::string& text = std::strcmp(name, "frames.csv") == 0 ? tables.frames_text : tables.schemes_text;
-    if (!read_text(path + "/" + name, text, reason)) {
-      error = path + "/" + name + ": " + reason;
-      return false;
-    }
-  }
-  if (!read_frames(tables, out, error) || !read_schemes(tables, out, error)) return false;
-
-  out.totals.assign(out.scheme_names.size(), SchemeStatistics{});
-  for (SchemeStatistics& total : out.totals) total.burst_bits = out.burst_bits;
-  out.target_totals = out.totals;
-  for (FrameStatistics& frame : out.frames) {
-    frame.schemes.resize(out.scheme_names.size());
-    if (frame.warmup) continue;
-    const bool target = is_target(frame.surface);
-    ++(target ? out.measured_targets : out.measured_frames);
-    std::vector<SchemeStatistics>& totals = target ? out.target_totals : out.totals;
-    for (size_t i = 0; i < frame.schemes.size(); ++i) totals[i] += frame.schemes[i];
-  }
-  return true;
-}
-
-bool cut_file(const std::string& path, const std::string& text, size_t end, std::string& error) {
-  if (end >= text.size() || truncate(path.c_str(), static_cast<off_t>(end)) == 0) return true;
+bool cut_file(const std::string& path, uint64_t end, std::string& error) {
+  std::error_code code;
+  const uint64_t size = std::filesystem::file_size(path, code);
+  if (!code && (end >= size || truncate(path.c_str(), static_cast<off_t>(end)) == 0)) return true;
   error = path + ": " + std::strerror(errno);
   return false;
 }
@@ -230,15 +207,43 @@ bool holds_run(const std::string& path) {
 }
 
 bool read_run(const std::string& path, RunRecord& out, std::string& error) {
-  Tables tables;
-  return read_tables(path, out, tables, error);
+  out = RunRecord{};
+  out.path = path;
+  if (!holds_run(path)) {
+    error = path + ": holds no run";
+    return false;
+  }
+  std::string json, reason;
+  if (read_text(path + "/run.json", json, reason) && !read_run_json(json, out, reason)) {
+    error = path + "/run.json: " + reason;
+    return false;
+  }
+  const auto read_rows = [&](const char* name, bool (*read)(std::string_view, RunRecord&, std::string&)) {
+    std::string text;
+    if (read_text(path + "/" + name, text, reason)) return read(text, out, error);
+    error = path + "/" + name + ": " + reason;
+    return false;
+  };
+  if (!read_rows("frames.csv", read_frames) || !read_rows("schemes.csv", read_schemes)) return false;
+
+  out.totals.assign(out.scheme_names.size(), SchemeStatistics{});
+  for (SchemeStatistics& total : out.totals) total.burst_bits = out.burst_bits;
+  out.target_totals = out.totals;
+  for (FrameStatistics& frame : out.frames) {
+    frame.schemes.resize(out.scheme_names.size());
+    if (frame.warmup) continue;
+    const bool target = is_target(frame.surface);
+    ++(target ? out.measured_targets : out.measured_frames);
+    std::vector<SchemeStatistics>& totals = target ? out.target_totals : out.totals;
+    for (size_t i = 0; i < frame.schemes.size(); ++i) totals[i] += frame.schemes[i];
+  }
+  return true;
 }
 
-bool close_run(const std::string& path, const RunEnd& end, RunRecord& record, std::string& error) {
-  Tables tables;
-  if (!read_tables(path, record, tables, error)) return false;
-  if (!cut_file(path + "/frames.csv", tables.frames_text, tables.frames_end, error)) return false;
-  if (!cut_file(path + "/schemes.csv", tables.schemes_text, tables.schemes_end, error)) return false;
+bool close_run(const RunEnd& end, RunRecord& record, std::string& error) {
+  const std::string& path = record.path;
+  if (!cut_file(path + "/frames.csv", record.frames_bytes, error)) return false;
+  if (!cut_file(path + "/schemes.csv", record.schemes_bytes, error)) return false;
   for (const char* file : {kLiveFile, kLivePictureFile})
     unlink((path + "/" + file).c_str());  // of a program that was killed
   if (end.overrules || record.state == "running" || (end.signal && record.state != "failed")) {

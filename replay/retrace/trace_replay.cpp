@@ -263,7 +263,7 @@ void TraceReplay::find_run(Attempt& attempt) {
 }
 
 /// Closes the run with what is known of the trace, and moves it into its place in one step.
-void TraceReplay::settle(const Attempt& attempt) {
+void TraceReplay::settle(Attempt& attempt) {
   if (attempt.run.frames.empty()) return;
   RunEnd end;
   end.overrules = true;
@@ -284,7 +284,8 @@ void TraceReplay::settle(const Attempt& attempt) {
   if (!input_.category.empty()) end.further.emplace_back("category", input_.category);
   end.figures = {{"trace_frames", trace_.frames}, {"expected_frames", result_.frames_wanted}};
   std::string error;
-  if (!close_run(attempt.run_folder, end, result_.run, error)) return fail(error);
+  if (!close_run(end, attempt.run, error)) return fail(error);
+  result_.run = std::move(attempt.run);
   std::error_code code;
   fs::rename(attempt.run_folder, run_path_, code);
   if (code) return fail(run_path_ + ": " + code.message());

@@ -211,7 +211,7 @@ TEST_F(RunDirectory, ClosingCutsTornRowsAndRowsOfAnIncompleteFrame) {
   RunEnd end;
   end.state = "killed by signal 9";
   end.signal = 9;
-  ASSERT_TRUE(close_run(path_, end, run, error)) << error;
+  ASSERT_TRUE(read_run(path_, run, error) && close_run(end, run, error)) << error;
   EXPECT_EQ(text("frames.csv"), frames_before);
   EXPECT_EQ(text("schemes.csv"), schemes_before);
   EXPECT_EQ(run.frames.size(), 3u);
@@ -234,7 +234,7 @@ TEST_F(RunDirectory, ClosingKeepsTheFailureThatTheRunNoted) {
   std::string error;
   RunEnd end;
   end.exit_status = 0;
-  ASSERT_TRUE(close_run(path_, end, run, error)) << error;
+  ASSERT_TRUE(read_run(path_, run, error) && close_run(end, run, error)) << error;
   EXPECT_EQ(read().state, "failed");
   EXPECT_EQ(read().reason, "disk full");
 }
@@ -244,7 +244,7 @@ TEST_F(RunDirectory, ClosingMakesUpForALostJson) {
   fs::remove(path_ + "/run.json");
   RunRecord run;
   std::string error;
-  ASSERT_TRUE(close_run(path_, RunEnd{}, run, error)) << error;
+  ASSERT_TRUE(read_run(path_, run, error) && close_run(RunEnd{}, run, error)) << error;
   EXPECT_EQ(read().state, "finished");
   EXPECT_THAT(read().scheme_names, ElementsAre("dcp", "vdcp:fvc=128,policy=2lfc"));
 }

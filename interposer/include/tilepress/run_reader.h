@@ -30,6 +30,8 @@ struct RunRecord {
   /// The same for targets (run_directory.h).
   std::vector<SchemeStatistics> target_totals;
   uint64_t measured_targets = 0;
+  /// Bytes of frames.csv and schemes.csv that hold these frames; rows that are not complete follow.
+  uint64_t frames_bytes = 0, schemes_bytes = 0;
 
   /// Of `frames`, those that are presented: the others are targets.
   uint64_t presented_frames() const {
@@ -60,10 +62,10 @@ struct RunEnd {
   std::vector<std::pair<std::string, uint64_t>> figures;     ///< more integer members for run.json
 };
 
-/// Closes a run whose program has ended: cuts off a torn last row and the rows of an incomplete frame, and
-/// replaces run.json by one with totals over what is there. What the run itself has noted ("finished",
-/// "failed") stays, except that a signal overrules "finished", and `end.overrules` both. `record` receives
-/// the run as it then is. False and one line in `error` on failure.
-bool close_run(const std::string& path, const RunEnd& end, RunRecord& record, std::string& error);
+/// Closes a run that was read after its program had ended: cuts off a torn last row and the rows of an
+/// incomplete frame, and replaces run.json by one with totals over what is there. What the run itself has
+/// noted ("finished", "failed") stays, except that a signal overrules "finished", and `end.overrules` both.
+/// `record`, as read_run() gave it, becomes the run as it then is. False and one line in `error` on failure.
+bool close_run(const RunEnd& end, RunRecord& record, std::string& error);
 
 }  // namespace tilepress

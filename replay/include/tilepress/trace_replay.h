@@ -100,7 +100,7 @@ class TraceReplay {
                               const std::atomic<bool>& stop);
   void find_run(Attempt& attempt);
   void judge(const Attempt& attempt);
-  void settle(const Attempt& attempt);
+  void settle(Attempt& attempt);
   std::string end_text(const Attempt& attempt) const;
   std::string missing_text(const Attempt& attempt) const;
 
