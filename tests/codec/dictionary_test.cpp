@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <random>
 #include <vector>
 
 #include "dcp/algorithm1.h"
@@ -151,6 +152,52 @@ TEST(Huffman, CanonicalCodesReadBackEverySymbol) {
     EXPECT_EQ(read, symbol);
     EXPECT_EQ(reader.position(), code.length(symbol));
   }
+}
+
+TEST(Huffman, CodesOfEveryLengthReadBackOneByOneAndInFours) {
+  // 1, 2, 3 … 44, 44 bits: below and above what the table of the reader holds, up to 176 bits for four.
+  Counts fibonacci = {1, 1};
+  while (fibonacci.size() < 45) fibonacci.push_back(fibonacci.end()[-1] + fibonacci.end()[-2]);
+  std::reverse(fibonacci.begin(), fibonacci.end());
+  CanonicalCode code;
+  ASSERT_TRUE(code.assign(huffman_lengths(fibonacci)));
+  std::mt19937 random(5);
+  for (uint32_t round = 0; round < 5000; ++round) {
+    uint32_t symbols[4], bits = round % 8;
+    for (uint32_t& symbol : symbols) symbol = random() % (round % 2 != 0 ? 45u : 12u);
+    std::vector<uint8_t> bytes(32);
+    BitWriter writer(bytes);
+    writer.put(0, bits);
+    for (const uint32_t symbol : symbols) {
+      writer.put(code.code(symbol), code.length(symbol));
+      bits += code.length(symbol);
+    }
+    writer.flush();
+    BitReader one(bytes), four(bytes);
+    one.skip(round % 8);
+    four.skip(round % 8);
+    uint32_t read[4];
+    ASSERT_TRUE(code.read_four(four, read));
+    EXPECT_TRUE(std::ranges::equal(read, symbols));
+    EXPECT_EQ(four.position(), bits);
+    for (const uint32_t symbol : symbols) {
+      ASSERT_TRUE(code.read(one, read[0]));
+      EXPECT_EQ(read[0], symbol);
+    }
+    EXPECT_EQ(one.position(), bits);
+  }
+}
+
+TEST(Huffman, BitsThatNoCodeBeginsWithAreNotRead) {
+  CanonicalCode code;
+  ASSERT_TRUE(code.assign(std::vector<uint8_t>{1, 12}));  // 0 and 1000 0000 0000
+  const std::vector<uint8_t> bytes = {0x3F, 0xFF};        // 0, 0, then ones
+  uint32_t read[4];
+  BitReader four(bytes), one(bytes);
+  EXPECT_FALSE(code.read_four(four, read));
+  one.skip(2);
+  EXPECT_FALSE(code.read(one, read[0]));
+  EXPECT_EQ(one.position(), 2u);
 }
 
 TEST(Huffman, RefusesLengthsThatAreNoPrefixCode) {
