@@ -26,7 +26,8 @@ inline std::vector<uint8_t> huffman_lengths(std::span<const uint32_t> counts) {
 /// Canonical code: shorter codes first, equal lengths by index.
 class CanonicalCode {
  public:
-  /// False if the lengths do not form a prefix code (or a length is over kMaxHuffmanLength).
+  /// False if the lengths do not form a prefix code (or a length is over kMaxHuffmanLength); then there is no
+  /// code.
   bool assign(std::span<const uint8_t> lengths);
   uint64_t code(uint32_t index) const { return codes_[index]; }
   uint32_t length(uint32_t index) const { return lengths_[index]; }
@@ -72,10 +73,11 @@ class CanonicalCode {
     return length != 0 || find_long(window, index, length);
   }
   bool find_long(uint64_t window, uint32_t& index, uint32_t& length) const;
+  bool take(std::span<const uint8_t> lengths);
   std::vector<uint8_t> lengths_;
   std::vector<uint64_t> codes_;
-  std::vector<uint16_t> ordered_;              ///< indices by (length, index)
-  std::array<Entry, 1u << kTableBits> table_;  ///< by the next bits
+  std::vector<uint16_t> ordered_;                ///< indices by (length, index)
+  std::array<Entry, 1u << kTableBits> table_{};  ///< by the next bits
   std::array<uint64_t, kMaxHuffmanLength + 1> first_code_{};
   std::array<uint32_t, kMaxHuffmanLength + 1> first_rank_{}, count_{};
 };

@@ -99,6 +99,7 @@ class HuffDcpDecoder final : public DcpFamilyDecoder {
 
   bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override {
     const uint32_t slot_bits = pixel_bits_ + 1 + kLengthBits;
+    code_.assign({});
     if (table_bits % slot_bits != 0) return false;
     const uint64_t slots = table_bits / slot_bits;
     if (!DcpFamilyDecoder::begin_frame(tables, slots * (pixel_bits_ + 1), csb_bits)) return false;

@@ -79,7 +79,9 @@ class HdcpDecoder final : public DcpFamilyDecoder {
 
   bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override {
     ras_only_ = csb_bits == classes_.csb_bits();
-    return ras_only_ ? table_bits == 0 : DcpFamilyDecoder::begin_frame(tables, table_bits, csb_bits);
+    if (!ras_only_) return DcpFamilyDecoder::begin_frame(tables, table_bits, csb_bits);
+    off_ = false;
+    return table_bits == 0;
   }
   bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
     if (off_) return false;

@@ -42,7 +42,12 @@ class Table {
  public:
   explicit Table(std::string_view text) : reader_(text) {
     if (!reader_.next(header_)) return;
-    for (size_t i = 0; i < header_.size(); ++i) columns_[header_[i]] = i;
+    for (size_t i = 0; i < header_.size(); ++i) {
+      const auto [column, added] = columns_.try_emplace(header_[i], i);
+      if (added) continue;
+      header_[column->second].clear();  // of two of a name the last counts
+      column->second = i;
+    }
   }
   bool next() {
     likely_ = 0;
@@ -57,7 +62,7 @@ class Table {
   const std::string& text(const char* name) {
     static const std::string kNothing;
     const size_t column = column_of(name);
-    if (column >= fields_.size()) {
+    if (column >= std::min(header_.size(), fields_.size())) {
       fault_ = std::string("no field ") + name;
       return kNothing;
     }

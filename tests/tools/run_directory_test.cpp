@@ -258,6 +258,18 @@ TEST_F(RunDirectory, NamesTheFileAndTheRecordThatIsMalformed) {
   EXPECT_EQ(error, path_ + "/frames.csv: record 4: time_ns is no number");
 }
 
+TEST_F(RunDirectory, ASurplusFieldIsNotThatOfAMissingColumn) {
+  write_frames(2);
+  std::string rows = text("frames.csv");
+  const std::string column = ",encode_ns";
+  rows.erase(rows.find(column), column.size());
+  std::ofstream(path_ + "/frames.csv") << rows;
+  RunRecord run;
+  std::string error;
+  EXPECT_FALSE(read_run(path_, run, error));
+  EXPECT_EQ(error, path_ + "/frames.csv: record 2: encode_ns is no number");
+}
+
 TEST_F(RunDirectory, AnEmptyFolderHoldsNoRun) {
   fs::create_directories(path_);
   RunRecord run;
