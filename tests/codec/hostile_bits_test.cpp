@@ -86,6 +86,20 @@ TEST(HostileBits, BehindTablesThatAreRefusedBlocksAreRefusedToo) {
   EXPECT_FALSE(decoder->decode(next_csb, next_payload, block));
 }
 
+TEST(HostileBits, AFrameOfRasIsReadBehindOneThatWasOff) {
+  const auto info = find_scheme("hdcp");
+  const auto decoder = info->make_decoder(parsed("hdcp"), traits(PixelFormat::kRgba8), {});
+  const BlockHarness ras("ras", nullptr);
+  const auto bits = ras.encode(solid(0x12345678));
+  BitReader none(std::span<const uint8_t>{}), tables(std::span<const uint8_t>{});
+  EXPECT_TRUE(decoder->begin_frame(none, 0, 0));  // no encoder of HDCP leaves the CSB out
+  EXPECT_TRUE(decoder->begin_frame(tables, 0, 2));
+  BitReader csb = bits.read_csb(), payload = bits.read_payload();
+  Block block;
+  ASSERT_TRUE(decoder->decode(csb, payload, block));
+  EXPECT_EQ(block, solid(0x12345678));
+}
+
 TEST(HostileBits, ADictionaryLargerThanTheFvcIsRefused) {
   const auto info = find_scheme("dcp");
   const auto decoder = info->make_decoder(parsed("dcp:fvc=4"), traits(PixelFormat::kRgba8), {});
