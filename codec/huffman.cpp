@@ -38,12 +38,12 @@ void huffman_lengths(std::span<const uint32_t> counts, std::vector<uint8_t>& len
 }
 
 bool CanonicalCode::assign(std::span<const uint8_t> lengths) {
-  if (take(lengths)) return true;
-  take({});
+  if (try_assign(lengths)) return true;
+  try_assign({});
   return false;
 }
 
-bool CanonicalCode::take(std::span<const uint8_t> lengths) {
+bool CanonicalCode::try_assign(std::span<const uint8_t> lengths) {
   lengths_.assign(lengths.begin(), lengths.end());
   codes_.assign(lengths.size(), 0);
   ordered_.clear();

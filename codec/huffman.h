@@ -33,8 +33,11 @@ class CanonicalCode {
   uint32_t length(uint32_t index) const { return lengths_[index]; }
   /// Reads one symbol. False: no code starts with these bits.
   bool read(BitReader& in, uint32_t& index) const {
-    uint32_t length = 0;
-    if (!find(in.peek(), index, length)) return false;
+    const uint64_t window = in.peek();
+    const Entry entry = table_[window >> (64 - kTableBits)];
+    index = entry.index;
+    uint32_t length = entry.length;
+    if (length == 0 && !find_long(window, index, length)) return false;
     in.skip(length);
     return true;
   }
@@ -65,15 +68,9 @@ class CanonicalCode {
     uint16_t index;
     uint8_t length;
   };
-  /// The code at the top of `window`, which holds kMaxBitsPerCall bits at least.
-  bool find(uint64_t window, uint32_t& index, uint32_t& length) const {
-    const Entry& entry = table_[window >> (64 - kTableBits)];
-    index = entry.index;
-    length = entry.length;
-    return length != 0 || find_long(window, index, length);
-  }
+  /// The code at the top of `window` that the table does not hold.
   bool find_long(uint64_t window, uint32_t& index, uint32_t& length) const;
-  bool take(std::span<const uint8_t> lengths);
+  bool try_assign(std::span<const uint8_t> lengths);
   std::vector<uint8_t> lengths_;
   std::vector<uint64_t> codes_;
   std::vector<uint16_t> ordered_;                ///< indices by (length, index)

@@ -17,6 +17,7 @@ bool DcpFamilyDecoder::begin_frame(BitReader& tables, uint64_t table_bits, uint3
   if (table_bits == 0) return true;  // no CCD yet: every sub-block is marked raw
   if (table_bits % (pixel_bits_ + 1) != 0) return false;
   if (!rccd_.read(tables, table_bits / (pixel_bits_ + 1), pixel_bits_)) return false;
+  if (rccd_.slots > 1u << index_bits_) return false;
   reads_at_once_ =
       kernels().byte_permutes && index_bits_ <= kMaxWrittenBits && rccd_.colors.size() <= colors_.size();
   if (reads_at_once_) std::copy(rccd_.colors.begin(), rccd_.colors.end(), colors_.begin());

@@ -91,7 +91,6 @@ class DcpDecoder final : public DcpFamilyDecoder {
   bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override {
     if (!DcpFamilyDecoder::begin_frame(tables, table_bits, csb_bits)) return false;
     const uint32_t width = rccd_.slots == 0 ? 0 : static_cast<uint32_t>(std::bit_width(rccd_.slots) - 1);
-    if (width > index_bits_) return false;
     for (uint32_t bits = 0; bits < marks_.size(); ++bits) {
       marks_[bits] = 0;
       for (uint32_t bit = 0x80; bit != 0; bit >>= 1)

@@ -102,6 +102,7 @@ class FbcDecoder final : public BlockDecoder {
 
   bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override {
     const uint32_t slot_bits = pixel_bits_ + 1 + kLengthBits;
+    code_.assign({});
     if (csb_bits != kSubBlocks || table_bits % slot_bits != 0) return false;
     const uint64_t slots = table_bits / slot_bits;
     if (!table_.read(tables, slots, pixel_bits_)) return false;
@@ -119,11 +120,10 @@ class FbcDecoder final : public BlockDecoder {
         read_raw_sub_block(payload, sub, pixel_bits_, out);
         continue;
       }
-      for (uint32_t i = 0; i < kSubBlockPixels; ++i) {
-        uint32_t index = 0;
-        if (!code_.read(payload, index)) return false;
-        out.pixels[sub_block_pixel(sub, i)] = table_.colors()[index];
-      }
+      uint32_t indices[kSubBlockPixels];
+      if (!code_.read_four(payload, indices)) return false;
+      for (uint32_t i = 0; i < kSubBlockPixels; ++i)
+        out.pixels[sub_block_pixel(sub, i)] = table_.colors()[indices[i]];
     }
     return !csb.overran() && !payload.overran();
   }

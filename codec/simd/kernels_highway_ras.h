@@ -41,6 +41,30 @@ HWY_INLINE V GroupBits(const Samples& d, V u0, V u1, V u2, V u3, V residuals) {
   return hn::Add(high, fixed);
 }
 
+/// Makes kK the k of the groups that take fewer bits with it.
+template <int kK, class V>
+HWY_INLINE void TryK(const Samples& d, V u0, V u1, V u2, V u3, V residuals, V& bits, V& k) {
+  const auto candidate = GroupBits<kK>(d, u0, u1, u2, u3, residuals);
+  k = hn::IfThenElse(hn::Lt(candidate, bits), hn::Set(d, kK), k);
+  bits = hn::Min(candidate, bits);
+}
+
+/// The bits of groups, with their headers, and their k.
+template <class V>
+HWY_INLINE void ChooseCode(const Samples& d, V u0, V u1, V u2, V u3, V residuals, V& bits, V& k) {
+  bits = GroupBits<0>(d, u0, u1, u2, u3, residuals);
+  k = hn::Zero(d);
+  TryK<1>(d, u0, u1, u2, u3, residuals, bits, k);
+  TryK<2>(d, u0, u1, u2, u3, residuals, bits, k);
+  TryK<3>(d, u0, u1, u2, u3, residuals, bits, k);
+  TryK<4>(d, u0, u1, u2, u3, residuals, bits, k);
+  TryK<5>(d, u0, u1, u2, u3, residuals, bits, k);
+  TryK<6>(d, u0, u1, u2, u3, residuals, bits, k);
+  const auto zero = hn::Eq(hn::Or(hn::Or(u0, u1), hn::Or(u2, u3)), hn::Zero(d));
+  bits = hn::IfThenElse(zero, hn::Set(d, 3), bits);
+  k = hn::IfThenElse(zero, hn::Set(d, kRasZeroGroup), k);
+}
+
 /// visit(number, u0, u1, u2, u3, residuals) for vectors of groups from ras_group_index `number` on: their
 /// folded residuals, and how many there are.
 template <class Visit>
@@ -73,43 +97,21 @@ uint32_t RasCodeBits(const int16_t* HWY_RESTRICT samples) {
   const hn::Repartition<int32_t, Samples> d32;
   auto total = hn::Zero(d32);
   ForEachGroups(samples, [&](uint32_t, V u0, V u1, V u2, V u3, V residuals) HWY_ATTR {
-    auto best = GroupBits<0>(d, u0, u1, u2, u3, residuals);
-    best = hn::Min(best, GroupBits<1>(d, u0, u1, u2, u3, residuals));
-    best = hn::Min(best, GroupBits<2>(d, u0, u1, u2, u3, residuals));
-    best = hn::Min(best, GroupBits<3>(d, u0, u1, u2, u3, residuals));
-    best = hn::Min(best, GroupBits<4>(d, u0, u1, u2, u3, residuals));
-    best = hn::Min(best, GroupBits<5>(d, u0, u1, u2, u3, residuals));
-    best = hn::Min(best, GroupBits<6>(d, u0, u1, u2, u3, residuals));
-    const auto zero = hn::Eq(hn::Or(hn::Or(u0, u1), hn::Or(u2, u3)), hn::Zero(d));
-    best = hn::IfThenElse(zero, hn::Set(d, 3), best);
+    V bits, k;
+    ChooseCode(d, u0, u1, u2, u3, residuals, bits, k);
     // Sum pairs of 16-bit lanes into 32-bit ones; a group's bits are positive and far below 2^15.
-    const auto pairs = hn::BitCast(d32, best);
+    const auto pairs = hn::BitCast(d32, bits);
     total = hn::Add(total, hn::Add(hn::ShiftRight<16>(pairs), hn::ShiftRight<16>(hn::ShiftLeft<16>(pairs))));
   });
   return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(d32, total)));
-}
-
-/// Makes kK the k of the groups that take fewer bits with it.
-template <int kK, class V>
-HWY_INLINE void TryK(const Samples& d, V u0, V u1, V u2, V u3, V residuals, V& bits, V& k) {
-  const auto candidate = GroupBits<kK>(d, u0, u1, u2, u3, residuals);
-  k = hn::IfThenElse(hn::Lt(candidate, bits), hn::Set(d, kK), k);
-  bits = hn::Min(candidate, bits);
 }
 
 void ChooseRasCodes(const int16_t* HWY_RESTRICT samples, RasGroups& groups) {
   const Samples d;
   using V = hn::Vec<Samples>;
   ForEachGroups(samples, [&](uint32_t number, V u0, V u1, V u2, V u3, V residuals) HWY_ATTR {
-    auto bits = GroupBits<0>(d, u0, u1, u2, u3, residuals), k = hn::Zero(d);
-    TryK<1>(d, u0, u1, u2, u3, residuals, bits, k);
-    TryK<2>(d, u0, u1, u2, u3, residuals, bits, k);
-    TryK<3>(d, u0, u1, u2, u3, residuals, bits, k);
-    TryK<4>(d, u0, u1, u2, u3, residuals, bits, k);
-    TryK<5>(d, u0, u1, u2, u3, residuals, bits, k);
-    TryK<6>(d, u0, u1, u2, u3, residuals, bits, k);
-    const auto zero = hn::Eq(hn::Or(hn::Or(u0, u1), hn::Or(u2, u3)), hn::Zero(d));
-    k = hn::IfThenElse(zero, hn::Set(d, kRasZeroGroup), k);
+    V bits, k;
+    ChooseCode(d, u0, u1, u2, u3, residuals, bits, k);
     const auto store = [&](V v, uint16_t* to)
                            HWY_ATTR { hn::StoreU(v, d, reinterpret_cast<int16_t*>(to + number)); };
     store(u0, groups.residuals[0]);

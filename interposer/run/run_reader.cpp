@@ -189,9 +189,9 @@ bool read_schemes(std::string_view text, RunRecord& out, std::string& error) {
 bool cut_file(const std::string& path, uint64_t end, std::string& error) {
   std::error_code code;
   const uint64_t size = std::filesystem::file_size(path, code);
-  if (!code && (end >= size || truncate(path.c_str(), static_cast<off_t>(end)) == 0)) return true;
-  error = path + ": " + std::strerror(errno);
-  return false;
+  if (!code && end < size) std::filesystem::resize_file(path, end, code);
+  if (code) error = path + ": " + code.message();
+  return !code;
 }
 
 /// What the rows prove goes before what the run last said of itself.

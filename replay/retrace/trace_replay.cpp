@@ -284,8 +284,8 @@ void TraceReplay::settle(Attempt& attempt) {
   if (!input_.category.empty()) end.further.emplace_back("category", input_.category);
   end.figures = {{"trace_frames", trace_.frames}, {"expected_frames", result_.frames_wanted}};
   std::string error;
-  if (!close_run(end, attempt.run, error)) return fail(error);
   result_.run = std::move(attempt.run);
+  if (!close_run(end, result_.run, error)) return fail(error);
   std::error_code code;
   fs::rename(attempt.run_folder, run_path_, code);
   if (code) return fail(run_path_ + ": " + code.message());

@@ -62,28 +62,31 @@ TEST(HostileBits, RandomTablesAreTakenOrRefused) {
 
 TEST(HostileBits, BehindTablesThatAreRefusedBlocksAreRefusedToo) {
   // Not what the decoder holds of the frame before: after a refusal its parts need not fit together.
-  const auto info = find_scheme("huffdcp");
-  const auto decoder = info->make_decoder(parsed("huffdcp"), traits(PixelFormat::kRgba8), {});
-  std::vector<uint8_t> good(64 * 39 / 8 + 1), bad(10);
-  BitWriter good_tables(good), bad_tables(bad);
-  for (uint32_t i = 0; i < 64; ++i) good_tables.put(uint64_t{1} << 32 | i, 33);
-  for (uint32_t i = 0; i < 64; ++i) good_tables.put(6, 6);
-  bad_tables.put(uint64_t{1} << 32, 33);  // a colour,
-  bad_tables.put(0, 33);
-  bad_tables.put(0, 12);  // but no code for it
-  good_tables.flush();
-  bad_tables.flush();
-  const std::vector<uint8_t> ones(256, 0xFF);
-  Block block;
-  BitReader good_reader(good);
-  ASSERT_TRUE(decoder->begin_frame(good_reader, 64 * 39, 16));
-  BitReader csb(ones), payload(ones);
-  EXPECT_TRUE(decoder->decode(csb, payload, block));
-  EXPECT_EQ(block, solid(63));
-  BitReader bad_reader(bad);
-  ASSERT_FALSE(decoder->begin_frame(bad_reader, 2 * 39, 16));
-  BitReader next_csb(ones), next_payload(ones);
-  EXPECT_FALSE(decoder->decode(next_csb, next_payload, block));
+  for (const char* name : {"huffdcp", "fbc"}) {
+    SCOPED_TRACE(name);
+    const auto info = find_scheme(name);
+    const auto decoder = info->make_decoder(parsed(name), traits(PixelFormat::kRgba8), {});
+    std::vector<uint8_t> good(64 * 39 / 8 + 1), bad(10);
+    BitWriter good_tables(good), bad_tables(bad);
+    for (uint32_t i = 0; i < 64; ++i) good_tables.put(uint64_t{1} << 32 | i, 33);
+    for (uint32_t i = 0; i < 64; ++i) good_tables.put(6, 6);
+    bad_tables.put(uint64_t{1} << 32, 33);  // a colour,
+    bad_tables.put(0, 33);
+    bad_tables.put(0, 12);  // but no code for it
+    good_tables.flush();
+    bad_tables.flush();
+    const std::vector<uint8_t> ones(256, 0xFF);
+    Block block;
+    BitReader good_reader(good);
+    ASSERT_TRUE(decoder->begin_frame(good_reader, 64 * 39, 16));
+    BitReader csb(ones), payload(ones);
+    EXPECT_TRUE(decoder->decode(csb, payload, block));
+    EXPECT_EQ(block, solid(63));
+    BitReader bad_reader(bad);
+    ASSERT_FALSE(decoder->begin_frame(bad_reader, 2 * 39, 16));
+    BitReader next_csb(ones), next_payload(ones);
+    EXPECT_FALSE(decoder->decode(next_csb, next_payload, block));
+  }
 }
 
 TEST(HostileBits, AFrameOfRasIsReadBehindOneThatWasOff) {
