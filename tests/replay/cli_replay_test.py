@@ -147,8 +147,9 @@ class Replays(ReplayCase):
 
     def test_with_progress_as_json(self):
         lines = [json.loads(line) for line in self.replay("-q", "-s", "red", "--progress", "json", GLX).splitlines()]
-        self.assertEqual(lines[-1]["frames_done"], FRAMES[GLX])
-        self.assertEqual({line["frames_total"] for line in lines}, {FRAMES[GLX]})
+        self.assertEqual((lines[-1]["frames_done"], lines[-1]["frames_total"]), (FRAMES[GLX], FRAMES[GLX]))
+        # Before the trace is read, which may take a while, there is no total yet.
+        self.assertEqual({line["frames_total"] for line in lines if "frames_total" in line}, {FRAMES[GLX]})
 
 
 class Manifests(ReplayCase):
