@@ -128,7 +128,12 @@ Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
   const uint64_t waited_ns = now_ns() - wait_ns;
   CapturedFrame& frame = *take.frame;
   const uint64_t pixels = uint64_t{shot.shape.width} * shot.shape.height;
-  frame.way = shot.any_way ? readback_->way(turn.window, pixels) : ReadWay::kSync;
+  // Its window may have been resized while the program drew: to bind it again would make the driver take new
+  // buffers then, and what was drawn would never be shown.
+  const bool first = shot.shape.resizable && turn.frame == 0;
+  frame.way = first          ? ReadWay::kInContext
+              : shot.any_way ? readback_->way(turn.window, pixels)
+                             : ReadWay::kSync;
   frame.arrive = [&queue = worker.queue(), filled = take.frame](bool whole) { queue.arrived(filled, whole); };
   if (std::string reason; !shot.read(frame, reason)) {
     report(turn.surface, "not captured: " + of_origin + reason);
@@ -136,7 +141,7 @@ Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
     take.frame = nullptr;
     return ends_as(Outcome::kNotCaptured);
   }
-  if (shot.any_way) {
+  if (shot.any_way && !first) {
     const std::string choice = readback_->note(turn.window, frame);
     if (!choice.empty())
       log_->write(LogLevel::kInfo, "surface " + std::to_string(turn.surface) + ": " + choice);

@@ -71,7 +71,8 @@ class EglSource final : public PresentSource {
     const auto config = config_of(present);
     if (!config) return fail(reason, "the surface has no config");
     key = {present.display, present.surface};
-    shape = {static_cast<uint32_t>(width), static_cast<uint32_t>(height), config->format, is_srgb(present)};
+    shape = {static_cast<uint32_t>(width), static_cast<uint32_t>(height), config->format, is_srgb(present),
+             !is_pbuffer(present)};
     return true;
   }
 
@@ -140,23 +141,9 @@ class EglSource final : public PresentSource {
   bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
             std::string& reason) override {
     const bool stay = in_program_context_only() || context_is_destroyed(present.display);
-    switch (stay ? Attempt::kNotBound : read_privately(present, shape, frame, reason)) {
-      case Attempt::kRead:
-        return true;
-      case Attempt::kContextLost:
-        return false;
-      default:
-        break;
-    }
-    frame.way = ReadWay::kInContext;
-    const auto config = config_of(present);
-    if (config && config->multisampled) {
-      reason = "a multisampled surface is resolved in a private context alone";
-      return false;
-    }
-    if (read_in_program_context(gl_, shape, buffer_of(present), frame)) return true;
-    if (reason.empty()) reason = "the program's context cannot be read";
-    return false;
+    return read_either(
+        stay, frame, reason, [&] { return read_privately(present, shape, frame, reason); },
+        [&] { return read_in_place(present, shape, frame, reason); });
   }
 
   void release(void* display) override {
@@ -179,6 +166,20 @@ class EglSource final : public PresentSource {
   bool context_is_destroyed(EGLDisplay display) const {
     EGLint id = 0;
     return !egl_.QueryContext(display, egl_.GetCurrentContext(), EGL_CONFIG_ID, &id);
+  }
+
+  /// In the program's context.
+  bool read_in_place(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
+                     std::string& reason) {
+    frame.way = ReadWay::kInContext;
+    const auto config = config_of(present);
+    if (config && config->multisampled) {
+      reason = "a multisampled surface is resolved in a private context alone";
+      return false;
+    }
+    if (read_in_program_context(gl_, shape, buffer_of(present), frame)) return true;
+    if (reason.empty()) reason = "the program's context cannot be read";
+    return false;
   }
 
   Attempt read_privately(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
@@ -211,6 +212,14 @@ class EglSource final : public PresentSource {
     if (own != EGL_NO_CONTEXT) pool_.give(key, own);
     if (!taken) reason = bound ? "glReadPixels failed" : "the private context cannot be made current";
     return taken ? Attempt::kRead : Attempt::kNotBound;
+  }
+
+  bool is_pbuffer(const TilepressPresent& present) const {
+    constexpr EGLint kUntouched = -1;  // the answer for a window or pixmap
+    EGLint largest = kUntouched;
+    egl_.QuerySurface(present.display, reinterpret_cast<EGLSurface>(present.surface), EGL_LARGEST_PBUFFER,
+                      &largest);
+    return largest != kUntouched;
   }
 
   GLenum buffer_of(const TilepressPresent& present) const {

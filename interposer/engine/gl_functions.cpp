@@ -9,6 +9,9 @@ bool GlFunctions::load(const Lookup& look_up) {
     return function != nullptr;
   };
   fill(ReadBuffer, "glReadBuffer");
+  fill(IsEnabled, "glIsEnabled");
+  fill(Enable, "glEnable");
+  fill(Disable, "glDisable");
   fill(GenBuffers, "glGenBuffers");
   fill(DeleteBuffers, "glDeleteBuffers");
   fill(BufferData, "glBufferData");

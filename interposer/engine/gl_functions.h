@@ -18,6 +18,9 @@ struct GlFunctions {
   void (*ReadPixels)(GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void*) = nullptr;
 
   void (*ReadBuffer)(GLenum) = nullptr;
+  GLboolean (*IsEnabled)(GLenum) = nullptr;
+  void (*Enable)(GLenum) = nullptr;
+  void (*Disable)(GLenum) = nullptr;
   void (*GenBuffers)(GLsizei, GLuint*) = nullptr;
   void (*DeleteBuffers)(GLsizei, const GLuint*) = nullptr;
   void (*BufferData)(GLenum, ptrdiff_t, const void*, GLenum) = nullptr;

@@ -88,7 +88,7 @@ class GlxSource final : public PresentSource {
     if (!config) return fail(reason, "the context has no framebuffer config");
     if (width < 1 || height < 1) return fail(reason, "the drawable has no pixels");
     key = {display, present.surface};
-    shape = {width, height, config->format, config->srgb_capable && is_srgb()};
+    shape = {width, height, config->format, config->srgb_capable && is_srgb(), true};
     return true;
   }
 
@@ -129,24 +129,9 @@ class GlxSource final : public PresentSource {
             std::string& reason) override {
     const bool stay = in_program_context_only() || context_is_destroyed();
     if (stay && !is_current(present)) return fail(reason, "the drawable is current nowhere");
-    switch (stay ? Attempt::kNotBound : read_privately(present, shape, frame, reason)) {
-      case Attempt::kRead:
-        return true;
-      case Attempt::kContextLost:
-        return false;
-      default:
-        break;
-    }
-    if (!is_current(present)) return false;
-    if (described() && described()->multisampled) {
-      reason = "a multisampled surface is resolved in a private context alone";
-      return false;
-    }
-    const bool double_buffered = described() && described()->double_buffered;
-    frame.way = ReadWay::kInContext;
-    if (read_in_program_context(gl_, shape, double_buffered ? GL_BACK : GL_FRONT, frame)) return true;
-    if (reason.empty()) reason = "the program's context cannot be read";
-    return false;
+    return read_either(
+        stay, frame, reason, [&] { return read_privately(present, shape, frame, reason); },
+        [&] { return read_in_place(present, shape, frame, reason); });
   }
 
   void release(void* display) override {
@@ -191,6 +176,21 @@ class GlxSource final : public PresentSource {
     shape = {found.width, found.height, config->format,
              config->srgb_capable && glx_.GetCurrentContext() != nullptr && is_srgb()};
     return true;
+  }
+
+  /// In the program's context.
+  bool read_in_place(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
+                     std::string& reason) {
+    if (!is_current(present)) return false;
+    frame.way = ReadWay::kInContext;
+    if (described() && described()->multisampled) {
+      reason = "a multisampled surface is resolved in a private context alone";
+      return false;
+    }
+    const bool double_buffered = described() && described()->double_buffered;
+    if (read_in_program_context(gl_, shape, double_buffered ? GL_BACK : GL_FRONT, frame)) return true;
+    if (reason.empty()) reason = "the program's context cannot be read";
+    return false;
   }
 
   Attempt read_privately(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,

@@ -84,6 +84,26 @@ class ReadBinding {
   GLint pack_buffer_ = 0, read_buffer_ = 0;
 };
 
+// The program's debug callback hears of its own calls alone: a driver has something to say of slow reads.
+class QuietDebugOutput {
+ public:
+  QuietDebugOutput(const GlFunctions& gl, const ContextVersion& version) : gl_(gl) {
+    const bool known = version.number >= (version.embedded ? 32 : 43) && gl.IsEnabled != nullptr &&
+                       gl.Enable != nullptr && gl.Disable != nullptr;
+    was_on_ = known && gl.IsEnabled(GL_DEBUG_OUTPUT) != GL_FALSE;
+    if (was_on_) gl.Disable(GL_DEBUG_OUTPUT);
+  }
+  ~QuietDebugOutput() {
+    if (was_on_) gl_.Enable(GL_DEBUG_OUTPUT);
+  }
+  QuietDebugOutput(const QuietDebugOutput&) = delete;
+  QuietDebugOutput& operator=(const QuietDebugOutput&) = delete;
+
+ private:
+  const GlFunctions& gl_;
+  bool was_on_ = false;
+};
+
 struct Layout {
   GLenum format = GL_RGBA, type = GL_UNSIGNED_BYTE;
   size_t pixel_bytes = 4;
@@ -111,6 +131,7 @@ bool read_bound(const GlFunctions& gl, const ContextVersion& version, const Surf
   const size_t pitch_bytes = size_t{shape.width} * layout.pixel_bytes;
   std::byte* pixels = frame.reserve(pitch_bytes * shape.height);
   if (pixels == nullptr) return false;
+  std::memset(pixels, 0, pitch_bytes * shape.height);  // what lies outside the buffer is not written
   const PlainPackState pack(gl, version);
   const uint64_t begin_ns = now_ns();
   gl.ReadPixels(0, 0, static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height), layout.format,
@@ -150,6 +171,7 @@ bool read_in_program_context(const GlFunctions& gl, const SurfaceShape& shape, G
                              CapturedFrame& frame) {
   const ContextVersion version = version_of(gl);
   if (!can_read(gl, version)) return false;
+  const QuietDebugOutput quiet(gl, version);
   const ReadBinding binding(gl, version, 0, buffer);
   return read_bound(gl, version, shape, frame);
 }
@@ -158,6 +180,7 @@ bool read_attachment_in_program_context(const GlFunctions& gl, const Attachment&
                                         FramebufferUse use, const SurfaceShape& shape, CapturedFrame& frame) {
   const ContextVersion version = version_of(gl);
   if (!can_read(gl, version)) return false;
+  const QuietDebugOutput quiet(gl, version);
   const ReadBinding binding(gl, version, bound_framebuffer(gl, version, use), attachment.point);
   return read_bound(gl, version, shape, frame);
 }

@@ -27,8 +27,8 @@ class PresentSource {
   /// the calling thread could read.
   virtual bool describe(const TilepressPresent& present, WindowKey& key, SurfaceShape& shape,
                         std::string& reason) = 0;
-  /// Reads the back buffer in a private context and makes the program's context current again. `frame.way`
-  /// says how, and afterwards how it was.
+  /// Reads the back buffer in a private context and makes the program's context current again, or in the
+  /// program's. `frame.way` says how, and afterwards how it was.
   virtual bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
                     std::string& reason) = 0;
   /// Fills in what is current on the calling thread: display and surface. False if no context of this API is.
@@ -60,6 +60,20 @@ class PresentSource {
  protected:
   /// What came of a read in a private context.
   enum class Attempt { kRead, kNotBound, kContextLost };
+  /// Reads in a private context, and where that cannot be in the program's: there first if `frame.way` says
+  /// so, there alone if `stay`.
+  template <typename Privately, typename InPlace>
+  static bool read_either(bool stay, CapturedFrame& frame, std::string& reason, const Privately& privately,
+                          const InPlace& in_place) {
+    if (stay) return in_place();
+    if (frame.way == ReadWay::kInContext) {
+      if (in_place()) return true;
+      frame.way = ReadWay::kSync;
+      reason.clear();
+    }
+    const Attempt attempt = privately();
+    return attempt == Attempt::kRead || (attempt == Attempt::kNotBound && in_place());
+  }
   static bool fail(std::string& reason, const char* text) {
     reason = text;
     return false;

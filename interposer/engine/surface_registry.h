@@ -27,7 +27,8 @@ struct WindowKey {
 struct SurfaceShape {
   uint32_t width = 0, height = 0;
   std::optional<PixelFormat> format;
-  bool srgb = false;  ///< its values are encoded as sRGB
+  bool srgb = false;       ///< its values are encoded as sRGB
+  bool resizable = false;  ///< another may give it another size at any time, as a window
   bool operator==(const SurfaceShape&) const = default;
 };
 

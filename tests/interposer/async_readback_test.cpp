@@ -25,16 +25,16 @@ struct Sample {
   const char* name;
   std::vector<std::string> command;
   size_t frames;
-  size_t async;  ///< of them, through pixel buffers
+  size_t async;  ///< of them, through pixel buffers: not the first of a window at a size
 };
 
 const Sample kSamples[] = {
     {"Pbuffer", {TILEPRESS_EGL_OPENED, "local", "20", "67", "45"}, 20, 20},
-    {"EglWindow", {TILEPRESS_EGL_DAMAGE}, 3, 3},
-    {"EglWindowOfGlfw", {TILEPRESS_GLFW, "egl", "6", "67", "45"}, 7, 7},
-    {"GlxWindow", {TILEPRESS_GLX_LINKED, "6", "67", "45"}, 6, 6},
-    {"GlxCopies", {TILEPRESS_GLX_PRESENTS, "copy"}, 3, 3},
-    {"GlxWindowResized", {TILEPRESS_GLX_RESIZE}, 12, 12},
+    {"EglWindow", {TILEPRESS_EGL_DAMAGE}, 3, 2},
+    {"EglWindowOfGlfw", {TILEPRESS_GLFW, "egl", "6", "67", "45"}, 7, 6},
+    {"GlxWindow", {TILEPRESS_GLX_LINKED, "6", "67", "45"}, 6, 5},
+    {"GlxCopies", {TILEPRESS_GLX_PRESENTS, "copy"}, 3, 2},
+    {"GlxWindowResized", {TILEPRESS_GLX_RESIZE}, 12, 8},
     {"SurfacesInTurn", {TILEPRESS_EGL_SCENES, "alternate"}, 10, 10},
     {"SurfacesDestroyedAfterTheirLastSwap", {TILEPRESS_EGL_SCENES, "recreate"}, 12, 12},
     {"DisplayTerminated", {TILEPRESS_EGL_SCENES, "terminate"}, 12, 12},
@@ -184,7 +184,7 @@ TEST(Readback, AsynchronousReadsOfWindowsMadeAgainAndAgainLeakNothing) {
   for (const char* api : {"egl", "glx"}) {
     const ShimRun run = soak_windows(api, {{"TILEPRESS_READBACK", "async"}});
     ASSERT_EQ(run.runs.size(), 1u);
-    EXPECT_EQ(count_of(run.runs[0], "async"), 1600u);
+    EXPECT_EQ(count_of(run.runs[0], "async"), 800u);
   }
 }
 

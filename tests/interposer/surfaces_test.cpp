@@ -80,6 +80,30 @@ TEST(Surfaces, AResizedWindowGoesOnAsANewSurface) {
   expect_surface(test, run.runs[0], 3, 3, 64, 48, false);
 }
 
+TEST(Surfaces, AWindowResizedBetweenDrawingAndPresentingShowsWhatItShowsWithout) {
+  const std::map<std::string, std::string> bare = {{"LD_PRELOAD", ""}, {"DISPLAY", own_display()}};
+  for (const char* api : {"egl", "glx"}) {
+    const ProcessResult without = run_process({TILEPRESS_LATE_RESIZE, api}, bare);
+    ASSERT_TRUE(without.exited_with(0)) << api;
+    ASSERT_EQ(run_process({TILEPRESS_LATE_RESIZE, api}, bare).out, without.out) << api;
+    for (const char* readback : {"auto", "sync", "async", "in-context"}) {
+      ShimTest test;
+      const ShimRun run = test.run({TILEPRESS_LATE_RESIZE, api},
+                                   {{"DISPLAY", own_display()}, {"TILEPRESS_READBACK", readback}});
+      EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
+      EXPECT_EQ(run.process.out, without.out) << api << ' ' << readback;
+      ASSERT_EQ(run.runs.size(), 1u);
+      ASSERT_EQ(run.runs[0].presents.size(), 12u) << api << ' ' << readback;
+      for (size_t i = 0; i < 12; ++i) {
+        const auto& present = run.runs[0].presents[i];
+        EXPECT_EQ(present.at("surface"), std::to_string(i / 3)) << api << ' ' << readback << i;
+        const bool in_context = present.at("readback") == "in-context";
+        EXPECT_EQ(in_context, i % 3 == 0 || std::string(readback) == "in-context") << api << ' ' << i;
+      }
+    }
+  }
+}
+
 TEST(Surfaces, DamageRectanglesAreRecordedAndRefusedPresentsAreNoFrames) {
   ShimTest test;
   const ShimRun run = test.run({TILEPRESS_EGL_DAMAGE}, {{"DISPLAY", own_display()}});

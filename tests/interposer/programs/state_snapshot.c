@@ -58,6 +58,7 @@ static void set_awkward_state(int es2, int desktop) {
   glEnable(GL_BLEND);
   glColorMask(1, 0, 1, 0);
   if (es2) return;
+  glEnable(GL_DEBUG_OUTPUT);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glGenBuffers(1, names + 2);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, names[2]);
