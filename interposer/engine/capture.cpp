@@ -130,8 +130,8 @@ Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
   const uint64_t pixels = uint64_t{shot.shape.width} * shot.shape.height;
   // Its window may have been resized while the program drew: to bind it again would make the driver take new
   // buffers then, and what was drawn would never be shown.
-  const bool first = shot.shape.resizable && turn.frame == 0;
-  frame.way = first          ? ReadWay::kInContext
+  const bool in_place = shot.shape.resizable && turn.new_shape;
+  frame.way = in_place       ? ReadWay::kInContext
               : shot.any_way ? readback_->way(turn.window, pixels)
                              : ReadWay::kSync;
   frame.arrive = [&queue = worker.queue(), filled = take.frame](bool whole) { queue.arrived(filled, whole); };
@@ -141,7 +141,7 @@ Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
     take.frame = nullptr;
     return ends_as(Outcome::kNotCaptured);
   }
-  if (shot.any_way && !first) {
+  if (shot.any_way && !in_place) {
     const std::string choice = readback_->note(turn.window, frame);
     if (!choice.empty())
       log_->write(LogLevel::kInfo, "surface " + std::to_string(turn.surface) + ": " + choice);
@@ -233,7 +233,7 @@ void Capture::commit(const Take& taken) {
   RoleCounts& counts = counts_.of(taken.role);
   FrameQueue& queue = worker_.load()->queue();
   ++counts.seen;
-  if (taken.window != Take().window) registry_.presented(taken.window, taken.begin_ns);
+  if (taken.window != Take().window) registry_.presented(taken.window, taken.begin_ns, taken.triggered);
   switch (taken.outcome) {
     case Outcome::kTaken:
       return queue.submit(taken.frame);

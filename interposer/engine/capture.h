@@ -60,6 +60,7 @@ class Capture {
     uint32_t window = ~0u;  ///< none
     CapturedFrame* frame = nullptr;
     uint64_t begin_ns = 0;
+    bool triggered = false;  ///< by another than a presenting call
   };
 
   bool begin_capture(TilepressPresent& present, uint64_t begin_ns);

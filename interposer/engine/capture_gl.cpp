@@ -195,7 +195,8 @@ void Capture::take_default_framebuffer(const TilepressGlCall& call, const Tilepr
     return read_in_program_context(source.gl(), shot.shape, buffers[0], frame);
   };
   CaptureWorker* made = worker(present, source);
-  const Take taken = take(shot, *made);
+  Take taken = take(shot, *made);
+  taken.triggered = true;
   if (call.by_default && taken.frame != nullptr && is_second_of_pair(call.kind, *taken.frame))
     return made->queue().release(taken.frame);
   commit(taken);

@@ -22,23 +22,25 @@ SurfaceRegistry::Turn SurfaceRegistry::turn(const WindowKey& key, const SurfaceS
       forgotten = oldest->number;
       windows_.erase(oldest);
     }
-    windows_.push_back({key, shape, window_count_++, next_surface++, 0, 0, 0});
+    windows_.push_back({key, shape, window_count_++, next_surface++, 0, 0, 0, true});
     window = windows_.end() - 1;
   } else if (window->shape != shape) {
     window->shape = shape;
     window->surface = next_surface++;
     window->frames = 0;
+    window->new_shape = true;
   }
   window->last_turn = ++turns_;
   const uint64_t interval_ns = window->last_ns > 0 ? now_ns - window->last_ns : 0;
-  return {window->number, window->surface, window->frames, interval_ns, forgotten};
+  return {window->number, window->surface, window->frames, interval_ns, forgotten, window->new_shape};
 }
 
-void SurfaceRegistry::presented(uint32_t number, uint64_t begin_ns) {
+void SurfaceRegistry::presented(uint32_t number, uint64_t begin_ns, bool triggered) {
   std::lock_guard lock(mutex_);
   for (Window& window : windows_) {
     if (window.number != number) continue;
     ++window.frames;
+    window.new_shape &= triggered;
     window.last_ns = begin_ns;
   }
 }

@@ -46,11 +46,13 @@ class SurfaceRegistry {
     uint64_t frame;
     uint64_t interval_ns;               ///< since the window's last present, from call to call; 0 = its first
     std::optional<uint32_t> forgotten;  ///< a window that had to make room
+    bool new_shape;  ///< no presenting call was made since the window was first met, or met at this shape
   };
   /// The numbers the next frame of the window bears; asking changes nothing but the shape. Thread-safe.
   Turn turn(const WindowKey& key, const SurfaceShape& shape, uint64_t now_ns);
-  /// The window has presented the frame that turn() numbered, in a call that came in at `begin_ns`.
-  void presented(uint32_t window, uint64_t begin_ns);
+  /// The window has presented the frame that turn() numbered, in a call that came in at `begin_ns`; it goes
+  /// on drawing into the same buffer if that was `triggered` by another call than a presenting one.
+  void presented(uint32_t window, uint64_t begin_ns, bool triggered);
   /// The window is gone: what presents under its handle later is another. Its number, if it was known.
   std::optional<uint32_t> forget(const WindowKey& key);
   /// The targets of `context` are gone: all, or those whose image has these bits where `mask` is set. Their
@@ -68,6 +70,7 @@ class SurfaceRegistry {
     uint64_t frames;
     uint64_t last_turn;
     uint64_t last_ns;  ///< 0 = has not presented
+    bool new_shape;    ///< as in Turn
   };
   std::mutex mutex_;
   std::vector<Window> windows_;

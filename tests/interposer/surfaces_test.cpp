@@ -80,29 +80,47 @@ TEST(Surfaces, AResizedWindowGoesOnAsANewSurface) {
   expect_surface(test, run.runs[0], 3, 3, 64, 48, false);
 }
 
-TEST(Surfaces, AWindowResizedBetweenDrawingAndPresentingShowsWhatItShowsWithout) {
+class LateResize : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(LateResize, ShowsWhatItShowsWithoutTheShim) {
+  const std::string api = GetParam();
   const std::map<std::string, std::string> bare = {{"LD_PRELOAD", ""}, {"DISPLAY", own_display()}};
-  for (const char* api : {"egl", "glx"}) {
-    const ProcessResult without = run_process({TILEPRESS_LATE_RESIZE, api}, bare);
-    ASSERT_TRUE(without.exited_with(0)) << api;
-    ASSERT_EQ(run_process({TILEPRESS_LATE_RESIZE, api}, bare).out, without.out) << api;
-    for (const char* readback : {"auto", "sync", "async", "in-context"}) {
-      ShimTest test;
-      const ShimRun run = test.run({TILEPRESS_LATE_RESIZE, api},
-                                   {{"DISPLAY", own_display()}, {"TILEPRESS_READBACK", readback}});
-      EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
-      EXPECT_EQ(run.process.out, without.out) << api << ' ' << readback;
-      ASSERT_EQ(run.runs.size(), 1u);
-      ASSERT_EQ(run.runs[0].presents.size(), 12u) << api << ' ' << readback;
-      for (size_t i = 0; i < 12; ++i) {
-        const auto& present = run.runs[0].presents[i];
-        EXPECT_EQ(present.at("surface"), std::to_string(i / 3)) << api << ' ' << readback << i;
-        const bool in_context = present.at("readback") == "in-context";
-        EXPECT_EQ(in_context, i % 3 == 0 || std::string(readback) == "in-context") << api << ' ' << i;
-      }
+  const ProcessResult without = run_process({TILEPRESS_LATE_RESIZE, api}, bare);
+  ASSERT_TRUE(without.exited_with(0));
+  ASSERT_EQ(run_process({TILEPRESS_LATE_RESIZE, api}, bare).out, without.out);
+  for (const std::string readback : {"auto", "sync", "async", "in-context"}) {
+    ShimTest test;
+    const ShimRun run = test.run({TILEPRESS_LATE_RESIZE, api},
+                                 {{"DISPLAY", own_display()}, {"TILEPRESS_READBACK", readback}});
+    EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
+    EXPECT_EQ(run.process.out, without.out) << readback;
+    ASSERT_EQ(run.runs.size(), 1u);
+    ASSERT_EQ(run.runs[0].presents.size(), 12u) << readback;
+    for (size_t i = 0; i < 12; ++i) {
+      const auto& present = run.runs[0].presents[i];
+      EXPECT_EQ(present.at("surface"), std::to_string(i / 3)) << readback << i;
+      EXPECT_EQ(present.at("readback") == "in-context", i % 3 == 0 || readback == "in-context")
+          << readback << i;
     }
   }
 }
+
+/// A frame that a trigger ends goes on in the same buffer.
+TEST_P(LateResize, ShowsWhatItShowsWithoutTheShimAfterATrigger) {
+  const std::vector<std::string> command = {TILEPRESS_LATE_RESIZE, GetParam(), "finish"};
+  const ProcessResult without = run_process(command, {{"LD_PRELOAD", ""}, {"DISPLAY", own_display()}});
+  ShimTest test;
+  const ShimRun run = test.run(command, {{"DISPLAY", own_display()}, {"TILEPRESS_TRIGGER", "finish"}});
+  EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
+  EXPECT_EQ(run.process.out, without.out);
+  ASSERT_EQ(run.runs.size(), 1u);
+  ASSERT_EQ(run.runs[0].presents.size(), 24u);
+  for (size_t i = 0; i < 24; ++i)
+    EXPECT_EQ(run.runs[0].presents[i].at("readback") == "in-context", i % 6 < 2) << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, LateResize, ::testing::Values("egl", "glx"),
+                         [](const auto& test) { return std::string(test.param); });
 
 TEST(Surfaces, DamageRectanglesAreRecordedAndRefusedPresentsAreNoFrames) {
   ShimTest test;

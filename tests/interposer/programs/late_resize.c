@@ -1,6 +1,6 @@
-/* late_resize egl|glx: an X window whose size changes when a frame has been drawn but not presented, as when
- * somebody pulls at its frame: 3 frames of each size. Prints what the window shows after each. Never larger
- * than before: Mesa's EGL shows memory beyond its buffer then. */
+/* late_resize egl|glx [finish]: an X window whose size changes when a frame has been drawn but not presented,
+ * as when somebody pulls at its frame: 3 frames of each size. Prints what the window shows after each. Never
+ * larger than before: Mesa's EGL shows memory beyond its buffer then. */
 #include <EGL/egl.h>
 #include <GL/gl.h>
 #include <GL/glx.h>
@@ -25,7 +25,6 @@ static void make_window(XVisualInfo* visual, int width, int height) {
 }
 
 static void print_shown(int frame, int width, int height) {
-  glFinish();
   XSync(x, False);
   XImage* image = XGetImage(x, window, 0, 0, (unsigned)width, (unsigned)height, AllPlanes, ZPixmap);
   if (image == NULL) exit(9);
@@ -44,7 +43,7 @@ static void print_shown(int frame, int width, int height) {
 int main(int argc, char** argv) {
   enum { kSizes = 4, kFramesOfEach = 3 };
   static const int kSize[kSizes][2] = {{60, 61}, {33, 48}, {32, 40}, {20, 17}};
-  const bool glx = argc > 1 && strcmp(argv[1], "glx") == 0;
+  const bool glx = argc > 1 && strcmp(argv[1], "glx") == 0, finishes = argc > 2;
   x = XOpenDisplay(NULL);
   if (x == NULL) return 9;
   int width = 64, height = 70, count = 0;
@@ -87,6 +86,7 @@ int main(int argc, char** argv) {
     height = kSize[frame / kFramesOfEach][1];
     XResizeWindow(x, window, (unsigned)width, (unsigned)height);
     XSync(x, False);
+    if (finishes) glFinish();
     if (glx)
       glXSwapBuffers(x, window);
     else
