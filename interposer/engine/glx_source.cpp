@@ -88,7 +88,8 @@ class GlxSource final : public PresentSource {
     if (!config) return fail(reason, "the context has no framebuffer config");
     if (width < 1 || height < 1) return fail(reason, "the drawable has no pixels");
     key = {display, present.surface};
-    shape = {width, height, config->format, config->srgb_capable && is_srgb(), true};
+    constexpr bool kResizable = true;  // a pbuffer's number tells nothing else
+    shape = {width, height, config->format, config->srgb_capable && is_srgb(), kResizable};
     return true;
   }
 
