@@ -128,12 +128,11 @@ Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
   const uint64_t waited_ns = now_ns() - wait_ns;
   CapturedFrame& frame = *take.frame;
   const uint64_t pixels = uint64_t{shot.shape.width} * shot.shape.height;
-  // Its window may have been resized while the program drew: to bind it again would make the driver take new
-  // buffers then, and what was drawn would never be shown.
-  const bool in_place = shot.shape.resizable && turn.new_shape;
+  const bool in_place = shot.in_place || (shot.shape.resizable && turn.new_shape);
   frame.way = in_place       ? ReadWay::kInContext
               : shot.any_way ? readback_->way(turn.window, pixels)
                              : ReadWay::kSync;
+  frame.partial = turn.new_shape || shot.key.role == SurfaceRole::kTarget;
   frame.arrive = [&queue = worker.queue(), filled = take.frame](bool whole) { queue.arrived(filled, whole); };
   if (std::string reason; !shot.read(frame, reason)) {
     report(turn.surface, "not captured: " + of_origin + reason);
@@ -203,6 +202,8 @@ bool Capture::begin_capture(TilepressPresent& present, uint64_t begin_ns) {
     log_->write(told ? LogLevel::kDebug : LogLevel::kWarn, "not captured: " + reason);
   } else if (CaptureWorker* made = worker(present, *source)) {
     shot.any_way = true;
+    shot.in_place =
+        shot.shape.resizable && options_.readback != Readback::kAsync && source->draws_in_software();
     shot.read = [&](CapturedFrame& frame, std::string& why) {
       return source->read(present, shot.shape, frame, why);
     };

@@ -51,6 +51,9 @@ class Capture {
     std::string damage;
     uint64_t begin_ns = 0;  ///< when its capture began
     bool any_way = false;   ///< its pixels may come late
+    /// A window is read in the program's context. It may be resized at any time, and to make another context
+    /// current on it would have the driver take new buffers: what was drawn would never be shown.
+    bool in_place = false;
     std::function<bool(CapturedFrame& frame, std::string& reason)> read;
   };
   /// What came of it, between begin and end.

@@ -42,6 +42,7 @@ struct CapturedFrame {
   std::string damage;  ///< "x y width height;…" from the bottom left, as presented; empty = everything
 
   ReadWay way = ReadWay::kSync;
+  bool partial = false;            ///< its buffer may be smaller than what is read: the rest is to be 0
   uint64_t buffered_ns = 0;        ///< of kBoth: what the read into a pixel buffer took; 0 = cannot be done
   std::unique_ptr<LateRead> late;  ///< of kAsync, until it is posted to the late reader
   std::function<void(bool whole)> arrive;  ///< to be called there once, from any thread

@@ -2,47 +2,22 @@
 // program's thread, and because a conversion of 16-bit or 10-bit pixels would not be the surface any more.
 #include "interposer/engine/gl_readback.h"
 
-#include <GL/glext.h>
-
 #include <utility>
 
 #include "interposer/engine/monotonic_clock.h"
 #include "interposer/engine/resolve_readback.h"
+#include "interposer/engine/transfer.h"
 
 namespace tilepress {
 namespace {
 
-struct Transfer {
-  GLenum format, type;
-  uint32_t pixel_bytes;
-  ByteOrder order;
-};
-
-constexpr Transfer kRgba{GL_RGBA, GL_UNSIGNED_BYTE, 4, ByteOrder::kRgba};
-
-Transfer transfer_of_8888(GLint format, GLint type) {
-  const bool bytes = type == GL_UNSIGNED_BYTE || type == GL_UNSIGNED_INT_8_8_8_8_REV;
-  if (format == GL_BGRA && bytes) return {GL_BGRA, static_cast<GLenum>(type), 4, ByteOrder::kBgra};
-  return kRgba;
-}
-
 Transfer transfer_of(PixelFormat format, const GlFunctions& gl) {
-  switch (format) {
-    case PixelFormat::kRgb565:
-      return {GL_RGB, GL_UNSIGNED_SHORT_5_6_5, 2, ByteOrder::kNative};
-    case PixelFormat::kRgb10a2:
-      return {GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, 4, ByteOrder::kNative};
-    case PixelFormat::kRgba16f:
-      return {GL_RGBA, GL_HALF_FLOAT, 8, ByteOrder::kNative};
-    default:
-      break;
-  }
   GLint preferred_format = 0, preferred_type = 0;
   gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &preferred_format);
   gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &preferred_type);
   while (gl.GetError() != GL_NO_ERROR) {
   }  // desktop GL before 4.1 does not know the question
-  return transfer_of_8888(preferred_format, preferred_type);
+  return tilepress::transfer_of(format, preferred_format, preferred_type);
 }
 
 }  // namespace

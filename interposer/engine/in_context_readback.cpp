@@ -2,14 +2,14 @@
 // neither raises an error the program would find.
 #include "interposer/engine/in_context_readback.h"
 
-#include <GL/glext.h>
-
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "interposer/engine/context_version.h"
 #include "interposer/engine/monotonic_clock.h"
+#include "interposer/engine/transfer.h"
 
 namespace tilepress {
 namespace {
@@ -104,38 +104,36 @@ class QuietDebugOutput {
   bool was_on_ = false;
 };
 
-struct Layout {
-  GLenum format = GL_RGBA, type = GL_UNSIGNED_BYTE;
-  size_t pixel_bytes = 4;
-};
-
-Layout layout_of(PixelFormat format) {
-  if (format == PixelFormat::kRgb565) return {GL_RGB, GL_UNSIGNED_SHORT_5_6_5, 2};
-  if (format == PixelFormat::kRgb10a2) return {GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, 4};
-  return {};
-}
-
-// OpenGL ES reads 8-bit RGBA, and what else it offers itself for the buffer that is bound.
-bool reads_layout(const GlFunctions& gl, const ContextVersion& version, const Layout& layout) {
-  if (!version.embedded || layout.type == GL_UNSIGNED_BYTE) return true;
-  GLint format = 0, type = 0;
-  gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &format);
-  gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &type);
-  return static_cast<GLenum>(format) == layout.format && static_cast<GLenum>(type) == layout.type;
+// Of the buffer that is bound; empty where this context does not read its format. OpenGL ES reads 8-bit RGBA,
+// and what else it offers itself.
+std::optional<Transfer> transfer_of(const GlFunctions& gl, const ContextVersion& version,
+                                    PixelFormat format) {
+  GLint offered_format = GL_BGRA, offered_type = GL_UNSIGNED_BYTE;  // any desktop GL reads it
+  if (version.number >= (version.embedded ? 20 : 41)) {
+    gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &offered_format);
+    gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &offered_type);
+  } else if (version.embedded) {
+    offered_format = GL_RGBA;
+  }
+  const Transfer transfer = tilepress::transfer_of(format, offered_format, offered_type);
+  const bool offered = static_cast<GLenum>(offered_format) == transfer.format &&
+                       static_cast<GLenum>(offered_type) == transfer.type;
+  const bool bytes = transfer.format == GL_RGBA && transfer.type == GL_UNSIGNED_BYTE;
+  return !version.embedded || bytes || offered ? std::optional(transfer) : std::nullopt;
 }
 
 bool read_bound(const GlFunctions& gl, const ContextVersion& version, const SurfaceShape& shape,
                 CapturedFrame& frame) {
-  const Layout layout = layout_of(*shape.format);
-  if (!reads_layout(gl, version, layout)) return false;
-  const size_t pitch_bytes = size_t{shape.width} * layout.pixel_bytes;
+  const std::optional<Transfer> transfer = transfer_of(gl, version, *shape.format);
+  if (!transfer) return false;
+  const size_t pitch_bytes = size_t{shape.width} * transfer->pixel_bytes;
   std::byte* pixels = frame.reserve(pitch_bytes * shape.height);
   if (pixels == nullptr) return false;
-  std::memset(pixels, 0, pitch_bytes * shape.height);  // what lies outside the buffer is not written
+  if (frame.partial) std::memset(pixels, 0, pitch_bytes * shape.height);
   const PlainPackState pack(gl, version);
   const uint64_t begin_ns = now_ns();
-  gl.ReadPixels(0, 0, static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height), layout.format,
-                layout.type, pixels);
+  gl.ReadPixels(0, 0, static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height), transfer->format,
+                transfer->type, pixels);
   frame.read_ns = now_ns() - begin_ns;
   frame.bind_ns = 0;
   frame.view = {pixels + pitch_bytes * (shape.height - 1),
@@ -143,7 +141,7 @@ bool read_bound(const GlFunctions& gl, const ContextVersion& version, const Surf
                 shape.width,
                 shape.height,
                 *shape.format,
-                ByteOrder::kRgba};
+                transfer->order};
   return true;
 }
 

@@ -2,6 +2,7 @@
 // reading.
 #pragma once
 
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <string>
@@ -54,6 +55,14 @@ class PresentSource {
       return std::string(value != nullptr ? reinterpret_cast<const char*>(value) : "");
     };
     return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)};
+  }
+  /// Whether Mesa draws on the processor, in the program's own context, which is current.
+  bool draws_in_software() const {
+    const auto* renderer = reinterpret_cast<const char*>(gl().GetString(GL_RENDERER));
+    if (renderer == nullptr) return false;
+    for (const char* name : {"llvmpipe", "softpipe", "SWR", "Software Rasterizer"})
+      if (strstr(renderer, name) != nullptr) return true;
+    return false;
   }
   virtual const char* api() const = 0;
 
