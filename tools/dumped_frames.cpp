@@ -31,8 +31,15 @@ bool write_png(const fs::path& raw, const fs::path& png, const FrameStatistics& 
                          .channels = frame.format == PixelFormat::kRgba8 ? 4u : 3u,
                          .samples = bytes.data(),
                          .pixel_bytes = 4};
+  const fs::path partial = png.string() + ".partial";  // whoever sees a PNG sees a whole one
   std::string reason;
-  if (library->write_png(png.string(), pixels, reason)) return true;
+  std::error_code code;
+  if (library->write_png(partial.string(), pixels, reason)) {
+    fs::rename(partial, png, code);
+    if (!code) return true;
+    reason = code.message();
+  }
+  fs::remove(partial, code);
   error = png.string() + ": " + reason;
   return false;
 }
