@@ -128,11 +128,12 @@ Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
   const uint64_t waited_ns = now_ns() - wait_ns;
   CapturedFrame& frame = *take.frame;
   const uint64_t pixels = uint64_t{shot.shape.width} * shot.shape.height;
-  const bool in_place = shot.in_place || (shot.shape.resizable && turn.new_shape);
+  const bool new_shape = shot.shape.resizable && turn.new_shape;
+  const bool in_place = shot.in_place || new_shape;
   frame.way = in_place       ? ReadWay::kInContext
               : shot.any_way ? readback_->way(turn.window, pixels)
                              : ReadWay::kSync;
-  frame.partial = turn.new_shape || shot.key.role == SurfaceRole::kTarget;
+  frame.partial = new_shape || shot.key.role == SurfaceRole::kTarget;
   frame.arrive = [&queue = worker.queue(), filled = take.frame](bool whole) { queue.arrived(filled, whole); };
   if (std::string reason; !shot.read(frame, reason)) {
     report(turn.surface, "not captured: " + of_origin + reason);
