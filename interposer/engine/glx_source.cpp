@@ -88,7 +88,6 @@ class GlxSource final : public PresentSource {
     if (!config) return fail(reason, "the context has no framebuffer config");
     if (width < 1 || height < 1) return fail(reason, "the drawable has no pixels");
     key = {display, present.surface};
-    constexpr bool kResizable = true;  // a pbuffer's number tells nothing else
     shape = {width, height, config->format, config->srgb_capable && is_srgb(), kResizable};
     return true;
   }
@@ -148,6 +147,8 @@ class GlxSource final : public PresentSource {
   const char* api() const override { return "GLX"; }
 
  private:
+  static constexpr bool kResizable = true;  ///< a pbuffer's number tells nothing else
+
   /// The program has destroyed its context, which lives on until something else is made current, without a
   /// number.
   bool context_is_destroyed() const {
@@ -175,7 +176,7 @@ class GlxSource final : public PresentSource {
     if (!config) return fail(reason, "the drawable has no framebuffer config");
     key = {display, present.surface};
     shape = {found.width, found.height, config->format,
-             config->srgb_capable && glx_.GetCurrentContext() != nullptr && is_srgb()};
+             config->srgb_capable && glx_.GetCurrentContext() != nullptr && is_srgb(), kResizable};
     return true;
   }
 

@@ -56,8 +56,9 @@ class PresentSource {
     };
     return {text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION)};
   }
-  /// Whether Mesa draws on the processor, in the program's own context, which is current.
+  /// Whether Mesa draws on the processor in the program's context; false if none is current.
   bool draws_in_software() const {
+    if (context() == nullptr) return false;
     const auto* renderer = reinterpret_cast<const char*>(gl().GetString(GL_RENDERER));
     if (renderer == nullptr) return false;
     for (const char* name : {"llvmpipe", "softpipe", "SWR", "Software Rasterizer"})

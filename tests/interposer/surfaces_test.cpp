@@ -305,6 +305,14 @@ TEST_P(IdleDrawables, AreCapturedWhileAnotherIsCurrent) {
   EXPECT_EQ(captured.runs[0].json_text("api"), "GLX");
 }
 
+TEST_P(IdleDrawables, AreTheSameSurfacesWhenTheyAreCurrent) {
+  const ShimRun captured = run("sometimes");
+  ASSERT_EQ(captured.runs.size(), 1u);
+  EXPECT_EQ(captured.runs[0].surfaces.size(), 2u);
+  expect_surface(test_, captured.runs[0], 0, 3, 64, 48, false);
+  expect_surface(test_, captured.runs[0], 1, 3, 48, 40, false);
+}
+
 TEST_P(IdleDrawables, AreCapturedWhileNothingIsCurrent) {
   const ShimRun captured = run("released");
   ASSERT_EQ(captured.runs.size(), 1u);
