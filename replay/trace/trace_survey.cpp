@@ -211,7 +211,11 @@ void TraceSurvey::gl_viewport(const TraceCall& call, Thread& thread) {
   // The recorder notes the window's size as a viewport when a context becomes current; a retracer sizes its
   // windows by the viewports of the default framebuffer.
   if (context(thread.context).draw_framebuffer != 0) return;
-  resize(thread.surface, argument(call, 0) + argument(call, 2), argument(call, 1) + argument(call, 3));
+  // A file may claim any 64-bit number where GL has 32 bits; two of them must not overflow.
+  const auto gl_int = [&call](size_t position) {
+    return std::clamp<int64_t>(argument(call, position), INT32_MIN, INT32_MAX);
+  };
+  resize(thread.surface, gl_int(0) + gl_int(2), gl_int(1) + gl_int(3));
 }
 
 void TraceSurvey::gl_bind_framebuffer(const TraceCall& call, Thread& thread) {

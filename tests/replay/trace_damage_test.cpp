@@ -128,6 +128,18 @@ TEST(DamagedTrace, WithAnyByteChangedIsReadWithoutHarm) {
   }
 }
 
+TEST(HostileTrace, AViewportBeyondAllSizesIsNoSurface) {
+  TraceBuilder trace;
+  trace.make_current(3, 1);
+  trace.viewport(10, 20);
+  trace.call("glViewport", {number(INT64_MAX), number(INT64_MAX), number(64), number(INT64_MAX)});
+  trace.swap(3);
+  const TraceSummary summary = summary_of(trace.file());
+  ASSERT_EQ(summary.surfaces.size(), 1u);
+  EXPECT_EQ(summary.surfaces[0].width, 10u);
+  EXPECT_EQ(summary.surfaces[0].height, 20u);
+}
+
 TEST(HostileTrace, WithEndlessNestingIsCorrupt) {
   TraceBuilder trace;
   trace.raw({0, 0, 0, 1, 'f', 1, 1, 'a', 1, 0});
