@@ -1,8 +1,9 @@
 /* egl_picture ROAD FRAMES WIDTH HEIGHT [END]: presents the known picture from a pbuffer, without a window
    system. ROAD: how EGL is reached: link (only in the build that links it), local, deepbind, getproc, dlvsym.
    END: how the program ends: return (default), exit, _exit, _Exit, quick_exit, abort, kill, term, segv
-   (signals), pause (presents nothing any more), fork (a child presents too), vfork (a child is executed, then as many frames again), dlclose (of
-   the GL library, then as many frames again). Prints the error that eglGetError gives after the last swap. */
+   (signals), pause (presents nothing any more), fork (a child presents too), vfork (a child is executed, then
+   as many frames again), dlclose (of the GL library, then as many frames again). Prints the error that
+   eglGetError gives after the last swap. */
 #define _GNU_SOURCE
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -25,6 +26,7 @@ static void* get(const char* name) {
 #define LINKED_FUNCTION(function) \
   if (strcmp(name, #function) == 0) return (void*)&function
   LINKED_FUNCTION(eglGetPlatformDisplay);
+  LINKED_FUNCTION(eglGetDisplay);
   LINKED_FUNCTION(eglInitialize);
   LINKED_FUNCTION(eglChooseConfig);
   LINKED_FUNCTION(eglCreatePbufferSurface);
@@ -58,6 +60,7 @@ static int open_library(void) {
 
 static void present(int frames, int width, int height) {
   GET(GetPlatformDisplay);
+  GET(GetDisplay);
   GET(Initialize);
   GET(ChooseConfig);
   GET(CreatePbufferSurface);
@@ -83,8 +86,11 @@ static void present(int frames, int width, int height) {
   EGLDisplay display = GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
   EGLConfig config = NULL;
   EGLint count = 0;
-  if (!Initialize(display, NULL, NULL) || !ChooseConfig(display, wanted, &config, 1, &count) || count == 0)
-    exit(9);
+  if (!Initialize(display, NULL, NULL)) {  // a driver other than Mesa's
+    display = GetDisplay(EGL_DEFAULT_DISPLAY);
+    if (!Initialize(display, NULL, NULL)) exit(9);
+  }
+  if (!ChooseConfig(display, wanted, &config, 1, &count) || count == 0) exit(9);
   EGLSurface surface = CreatePbufferSurface(display, config, size);
   EGLContext context = CreateContext(display, config, EGL_NO_CONTEXT, context_wish);
   if (!MakeCurrent(display, surface, surface, context)) exit(9);

@@ -13,8 +13,16 @@ typedef struct {
   int red, green, blue, alpha, floating;
 } channel_bits;
 
+/* Mesa's platform, or the first device of a driver that has only those. */
 static inline EGLDisplay open_surfaceless(void) {
   EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+  if (eglInitialize(display, NULL, NULL)) return display;
+  PFNEGLQUERYDEVICESEXTPROC query_devices =
+      (PFNEGLQUERYDEVICESEXTPROC)eglGetProcAddress("eglQueryDevicesEXT");
+  EGLDeviceEXT device;
+  EGLint count = 0;
+  if (!query_devices || !query_devices(1, &device, &count) || count == 0) exit(9);
+  display = eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, device, NULL);
   if (!eglInitialize(display, NULL, NULL)) exit(9);
   return display;
 }
