@@ -129,7 +129,8 @@ Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
   CapturedFrame& frame = *take.frame;
   const uint64_t pixels = uint64_t{shot.shape.width} * shot.shape.height;
   const bool new_shape = shot.shape.resizable && turn.new_shape;
-  const bool in_place = shot.in_place || new_shape;
+  const bool asked_to_be_late = shot.any_way && options_.readback == Readback::kAsync;
+  const bool in_place = shot.software_window && (new_shape || !asked_to_be_late);
   frame.way = in_place       ? ReadWay::kInContext
               : shot.any_way ? readback_->way(turn.window, pixels)
                              : ReadWay::kSync;
@@ -203,8 +204,7 @@ bool Capture::begin_capture(TilepressPresent& present, uint64_t begin_ns) {
     log_->write(told ? LogLevel::kDebug : LogLevel::kWarn, "not captured: " + reason);
   } else if (CaptureWorker* made = worker(present, *source)) {
     shot.any_way = true;
-    shot.in_place =
-        shot.shape.resizable && options_.readback != Readback::kAsync && source->draws_in_software();
+    shot.software_window = shot.shape.resizable && source->draws_in_software();
     shot.read = [&](CapturedFrame& frame, std::string& why) {
       return source->read(present, shot.shape, frame, why);
     };

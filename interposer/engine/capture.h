@@ -51,9 +51,11 @@ class Capture {
     std::string damage;
     uint64_t begin_ns = 0;  ///< when its capture began
     bool any_way = false;   ///< its pixels may come late
-    /// A window is read in the program's context. It may be resized at any time, and to make another context
-    /// current on it would have the driver take new buffers: what was drawn would never be shown.
-    bool in_place = false;
+    /// A window that Mesa draws on the processor. It may be resized at any time, and to make another context
+    /// current on it would have the driver take new buffers: what was drawn would never be shown. Of other
+    /// drivers NVIDIA's keeps what was drawn then, but loses it, or ends the program, where the window is
+    /// read in the program's context.
+    bool software_window = false;
     std::function<bool(CapturedFrame& frame, std::string& reason)> read;
   };
   /// What came of it, between begin and end.

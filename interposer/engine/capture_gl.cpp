@@ -187,7 +187,7 @@ void Capture::take_default_framebuffer(const TilepressGlCall& call, const Tilepr
     log_->write(LogLevel::kDebug, std::string(shot.cause) + ": " + reason);
     return;
   }
-  shot.in_place = shot.shape.resizable && source.draws_in_software();
+  shot.software_window = shot.shape.resizable && source.draws_in_software();
   const bool front = buffers[0] == GL_FRONT || buffers[0] == GL_FRONT_LEFT;
   shot.read = [&](CapturedFrame& frame, std::string& why) {
     if (!front) return source.read(present, shot.shape, frame, why);
