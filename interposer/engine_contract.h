@@ -7,17 +7,18 @@
 extern "C" {
 #endif
 
-enum { TILEPRESS_ENGINE_VERSION = 6 };
+enum { TILEPRESS_ENGINE_VERSION = 7 };
 
 enum TilepressApi { TILEPRESS_EGL, TILEPRESS_GLX, TILEPRESS_OSMESA, TILEPRESS_API_COUNT };
 
 // A presenting call, before it is forwarded. The first part is filled by the hook.
 struct TilepressPresent {
-  uint32_t api;       // enum TilepressApi
-  void* real;         // the function the call is forwarded to
-  void* display;      // EGLDisplay or Display*; NULL for OSMesa
-  uintptr_t surface;  // EGLSurface or GLXDrawable; 0 for OSMesa
+  uint32_t api;                // enum TilepressApi
+  void* real;                  // the function the call is forwarded to
+  void* display;               // EGLDisplay or Display*; NULL for OSMesa
+  uintptr_t surface;           // EGLSurface or GLXDrawable; 0 for OSMesa
   uint32_t current_elsewhere;  // GLX: another thread has the drawable current
+  uint32_t context_destroyed;  // GLX: the calling thread has destroyed the context that it has current
   // x, y, width, height of each damage rectangle, origin at the bottom left; NULL = the whole surface
   const int32_t* damage;
   int32_t damage_count;
@@ -50,9 +51,10 @@ enum TilepressGlKind {
 
 // A watched GL call, before it is forwarded.
 struct TilepressGlCall {
-  uint32_t kind;        // enum TilepressGlKind
-  uint32_t by_default;  // a trigger that was not asked for: the context is OSMesa's
-  void* osmesa;         // a function of OSMesa's library, if one of its contexts was made current here
+  uint32_t kind;               // enum TilepressGlKind
+  uint32_t by_default;         // a trigger that was not asked for: the context is OSMesa's
+  uint32_t context_destroyed;  // as in TilepressPresent
+  void* osmesa;                // a function of OSMesa's library, if one of its contexts was made current here
   const uintptr_t*
       arguments;    // the first integer and pointer arguments, in registers: upper halves are noise
   const char* via;  // as in TilepressPresent, as is look_up

@@ -66,8 +66,8 @@ bool is_second_of_pair(uint32_t kind, const CapturedFrame& frame) {
 }
 
 /// A multisampled image, which no context reads as it is.
-bool read_beside(PresentSource& source, const Attachment& image, const SurfaceShape& shape,
-                 CapturedFrame& frame, std::string& reason) {
+bool read_beside(PresentSource& source, const TilepressPresent& present, const Attachment& image,
+                 const SurfaceShape& shape, CapturedFrame& frame, std::string& reason) {
   if (in_program_context_only()) {
     reason = "a multisampled image is resolved in a private context alone";
     return false;
@@ -80,7 +80,7 @@ bool read_beside(PresentSource& source, const Attachment& image, const SurfaceSh
     read = read_resolved(source.gl(), image, shape, frame, reason);
     inside_ns = now_ns() - bound_ns;
   };
-  const bool ran = source.beside(work, reason);
+  const bool ran = source.beside(present, work, reason);
   frame.bind_ns = now_ns() - begin_ns - inside_ns;
   return ran && read;
 }
@@ -113,6 +113,7 @@ void* Capture::public_function(uint32_t api) {
 PresentSource* Capture::source_of(const TilepressGlCall& call, TilepressPresent& present) {
   present = {};
   present.via = call.via;
+  present.context_destroyed = call.context_destroyed;
   const auto is_current = [&](uint32_t api, void* real) -> PresentSource* {
     present.api = api;
     present.real = real;
@@ -222,7 +223,7 @@ void Capture::take_attachments(const TilepressPresent& present, PresentSource& s
       image.known = shape_in_sharing_context(gl, image.attachment, image.shape, image.samples, image.reason);
   };
   std::string reason = "the program's context does not tell the size of its images";
-  if (!images[0].known && (in_program_context_only() || !source.beside(measure, reason)))
+  if (!images[0].known && (in_program_context_only() || !source.beside(present, measure, reason)))
     for (Measured& image : images) image.reason = reason;
   for (const Measured& image : images) {
     Shot shot;
@@ -234,7 +235,7 @@ void Capture::take_attachments(const TilepressPresent& present, PresentSource& s
     const bool multisampled = image.samples > 0;
     if (multisampled) shot.origin += " resolved";
     shot.read = [&](CapturedFrame& frame, std::string& why) {
-      if (multisampled) return read_beside(source, image.attachment, image.shape, frame, why);
+      if (multisampled) return read_beside(source, present, image.attachment, image.shape, frame, why);
       why = "the program's context cannot be read";
       frame.way = ReadWay::kInContext;
       return read_attachment_in_program_context(gl, image.attachment, use, image.shape, frame);

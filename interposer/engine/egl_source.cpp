@@ -85,7 +85,7 @@ class EglSource final : public PresentSource {
   const void* context() const override { return egl_.GetCurrentContext(); }
   const GlFunctions& gl() const override { return gl_; }
 
-  bool beside(const std::function<void()>& work, std::string& reason) override {
+  bool beside(const TilepressPresent&, const std::function<void()>& work, std::string& reason) override {
     const EGLDisplay display = egl_.GetCurrentDisplay();
     const EGLContext context = egl_.GetCurrentContext();
     const EGLSurface draw = egl_.GetCurrentSurface(EGL_DRAW), read = egl_.GetCurrentSurface(EGL_READ);

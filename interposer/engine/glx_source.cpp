@@ -84,7 +84,8 @@ class GlxSource final : public PresentSource {
       glx_.QueryDrawable(display, present.surface, GLX_HEIGHT, &height);
       glx_.QueryDrawable(display, present.surface, GLX_FBCONFIG_ID, &drawable_config);
     }
-    const auto& config = described() = find_config(display, static_cast<int>(drawable_config), visual);
+    const auto& config = described() =
+        find_config(present, display, static_cast<int>(drawable_config), visual);
     if (!config) return fail(reason, "the context has no framebuffer config");
     if (width < 1 || height < 1) return fail(reason, "the drawable has no pixels");
     key = {display, present.surface};
@@ -101,16 +102,14 @@ class GlxSource final : public PresentSource {
   const void* context() const override { return glx_.GetCurrentContext(); }
   const GlFunctions& gl() const override { return gl_; }
 
-  bool beside(const std::function<void()>& work, std::string& reason) override {
+  bool beside(const TilepressPresent& present, const std::function<void()>& work,
+              std::string& reason) override {
     const GLXContext context = glx_.GetCurrentContext();
     const GLXDrawable draw = glx_.GetCurrentDrawable(), read = glx_.GetCurrentReadDrawable();
     Display* display = glx_.GetCurrentDisplay();
-    const auto config = find_config(display, 0, 0);
+    if (context_is_destroyed(present)) return fail(reason, "the program's context is destroyed");
+    const auto config = find_config(present, display, 0, 0);
     const ContextPool::Key key{display, reinterpret_cast<uintptr_t>(context)};
-    if (context_is_destroyed()) {
-      reason = "the program's context is destroyed";
-      return false;
-    }
     watch_end_of(display);
     auto own = static_cast<GLXContext>(sharing_.take(key));
     if (own == nullptr && config)
@@ -127,7 +126,7 @@ class GlxSource final : public PresentSource {
 
   bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
             std::string& reason) override {
-    const bool stay = in_program_context_only() || context_is_destroyed();
+    const bool stay = in_program_context_only() || context_is_destroyed(present);
     if (stay && !is_current(present)) return fail(reason, "the drawable is current nowhere");
     return read_either(
         stay, frame, reason, [&] { return read_privately(present, shape, frame, reason); },
@@ -149,9 +148,10 @@ class GlxSource final : public PresentSource {
  private:
   static constexpr bool kResizable = true;  ///< a pbuffer's number tells nothing else
 
-  /// The program has destroyed its context, which lives on until something else is made current, without a
-  /// number.
-  bool context_is_destroyed() const {
+  /// The program has destroyed its context, which lives on until something else is made current; in Mesa
+  /// without a number, which tells where the calling thread was not the one.
+  bool context_is_destroyed(const TilepressPresent& present) const {
+    if (present.context_destroyed != 0) return true;
     return glx_.GetContextIDEXT != nullptr && glx_.GetCurrentContext() != nullptr &&
            glx_.GetContextIDEXT(glx_.GetCurrentContext()) == None;
   }
@@ -166,8 +166,12 @@ class GlxSource final : public PresentSource {
                      std::string& reason) {
     auto* display = static_cast<Display*>(present.display);
     DrawableSize::GlxDrawable found;
+    unsigned width = 0, height = 0;
+    VisualID visual = 0;
     if (present.current_elsewhere != 0) return fail(reason, "another thread has the drawable current");
-    if (!size_.query_glx(display, present.surface, found))
+    // A driver may answer for a plain window too, and gives it buffers when ours is made current.
+    if (size_.query(display, present.surface, width, height, visual) ||
+        !size_.query_glx(display, present.surface, found))
       return fail(reason, "the drawable is current nowhere, where a plain X window has no buffers");
     watch_end_of(display);
     const int screen = found.screen >= 0 ? found.screen : glx_.DefaultScreenOf(display);
@@ -254,13 +258,20 @@ class GlxSource final : public PresentSource {
     return config;
   }
 
-  /// The config of the current context; of one that was made for a visual (where Mesa answers -1) the
-  /// drawable's, or the window's visual's.
-  std::optional<KnownConfig> find_config(Display* display, int drawable_config, VisualID visual) {
+  /// The config of the current context; of one that was made for a visual (where Mesa answers -1), or that is
+  /// destroyed (where a driver may ask the X server, for which it is an error), the drawable's, or the
+  /// window's visual's.
+  std::optional<KnownConfig> find_config(const TilepressPresent& present, Display* display,
+                                         int drawable_config, VisualID visual) {
     int id = 0, screen = 0;
     const GLXContext context = glx_.GetCurrentContext();
-    if (glx_.QueryContext(display, context, GLX_SCREEN, &screen) != 0) return std::nullopt;
-    if (glx_.QueryContext(display, context, GLX_FBCONFIG_ID, &id) != 0 || id <= 0) id = drawable_config;
+    if (present.context_destroyed != 0)
+      screen = glx_.DefaultScreenOf(display);
+    else if (glx_.QueryContext(display, context, GLX_SCREEN, &screen) != 0)
+      return std::nullopt;
+    else if (glx_.QueryContext(display, context, GLX_FBCONFIG_ID, &id) != 0)
+      id = 0;
+    if (id <= 0) id = drawable_config;
     if (id > 0) return known_config(display, screen, GLX_FBCONFIG_ID, id);
     return visual != 0 ? known_config(display, screen, GLX_VISUAL_ID, static_cast<int>(visual))
                        : std::nullopt;

@@ -57,7 +57,7 @@ class OsmesaSource final : public PresentSource {
   }
   const void* context() const override { return osmesa_.GetCurrentContext(); }
   const GlFunctions& gl() const override { return gl_; }
-  bool beside(const std::function<void()>&, std::string& reason) override {
+  bool beside(const TilepressPresent&, const std::function<void()>&, std::string& reason) override {
     reason = "an OSMesa context is alone on its thread";
     return false;
   }

@@ -38,7 +38,8 @@ class PresentSource {
   virtual const void* context() const = 0;
   /// Runs `work` in a private context that shares objects with the program's, and makes the program's current
   /// again. False, with the reason, if it did not run; not to be tried on a context that is lost then.
-  virtual bool beside(const std::function<void()>& work, std::string& reason) = 0;
+  virtual bool beside(const TilepressPresent& present, const std::function<void()>& work,
+                      std::string& reason) = 0;
   virtual const GlFunctions& gl() const = 0;
   /// The API's error flag of this thread, taken out and put back, where GL calls stand between two that set
   /// it.

@@ -1,6 +1,8 @@
-// Current drawables: a row per thread that has any. Of a thread that ends with a context current the row
-// stays, as does the driver's.
+// What is current: a row per thread that has any drawable. Of a thread that ends with a context current the
+// row stays, as does the driver's.
 #include "current_drawables.h"
+
+#include <stddef.h>
 
 enum { ROWS = 128 };
 
@@ -10,8 +12,14 @@ static struct {
 } rows[ROWS];
 static int rows_missing;  // threads without a row: from then on nobody knows
 static __thread int own_row __attribute__((tls_model("initial-exec")));  // 0: none, else its number + 1
+static __thread struct {
+  const void* handle;
+  bool destroyed;
+} own_context __attribute__((tls_model("initial-exec")));
 
-void tp_drawables_current(uintptr_t draw, uintptr_t read) {
+void tp_made_current(uintptr_t draw, uintptr_t read, const void* context) {
+  own_context.handle = context;
+  own_context.destroyed = false;
   for (int row = 0; draw != 0 && own_row == 0 && row < ROWS; ++row) {
     int free_row = 0;
     if (__atomic_compare_exchange_n(&rows[row].taken, &free_row, 1, false, __ATOMIC_ACQ_REL,
@@ -27,6 +35,14 @@ void tp_drawables_current(uintptr_t draw, uintptr_t read) {
   if (draw != 0) return;
   __atomic_store_n(&rows[own_row - 1].taken, 0, __ATOMIC_RELEASE);
   own_row = 0;
+}
+
+void tp_context_destroyed(const void* context) {
+  if (context != NULL && context == own_context.handle) own_context.destroyed = true;
+}
+
+bool tp_current_context_is_destroyed(void) {
+  return own_context.destroyed;
 }
 
 bool tp_is_current_elsewhere(uintptr_t drawable) {

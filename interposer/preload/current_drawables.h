@@ -1,11 +1,19 @@
-// Current drawables: which GLX drawables each thread has current, for presents by a thread that has not.
+// Current drawables: which GLX drawables each thread has current, for presents by a thread that has not; and
+// whether a thread's context is destroyed, which lives on until another is made current.
 #pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
 
-// The calling thread has made these current; 0 = none.
-void tp_drawables_current(uintptr_t draw, uintptr_t read);
+// The calling thread has made these current; 0 and NULL = none.
+void tp_made_current(uintptr_t draw, uintptr_t read, const void* context);
+
+// The calling thread has the program's call to destroy `context` before it.
+void tp_context_destroyed(const void* context);
+
+// True if the calling thread has destroyed the context that it has current: asking the X server for it would
+// be an error.
+bool tp_current_context_is_destroyed(void);
 
 // True if a thread other than the calling one has `drawable` current, or if nobody can know.
 bool tp_is_current_elsewhere(uintptr_t drawable);

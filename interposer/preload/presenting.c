@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <stddef.h>
 
+#include "current_drawables.h"
 #include "engine_loader.h"
 #include "session_file.h"
 
@@ -49,6 +50,7 @@ void tp_gl_called(struct TilepressGlCall* call) {
   pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &cancel_state);
   depth = 1;
   call->via = tp_via;
+  call->context_destroyed = tp_current_context_is_destroyed();
   for (int api = 0; api < TILEPRESS_API_COUNT; ++api) call->look_up[api] = tp_driver_lookup[api];
   const struct TilepressEngine* engine = tp_engine();
   if (engine != NULL) engine->gl_call(call);

@@ -158,11 +158,12 @@ TEST(Surfaces, DamageRectanglesAreRecordedAndRefusedPresentsAreNoFrames) {
 }
 
 /// Runs glx_presents with and without the shim: the same output, and three known frames.
-ShimRun run_glx_presents(ShimTest& test, const char* mode) {
-  const std::map<std::string, std::string> on_display = {{"DISPLAY", own_display()}};
-  const ShimRun run = test.run({TILEPRESS_GLX_PRESENTS, mode}, on_display);
-  const ProcessResult without =
-      run_process({TILEPRESS_GLX_PRESENTS, mode}, {{"LD_PRELOAD", ""}, {"DISPLAY", own_display()}});
+ShimRun run_glx_presents(ShimTest& test, const char* mode,
+                         std::map<std::string, std::string> environment = {}) {
+  environment["DISPLAY"] = own_display();
+  const ShimRun run = test.run({TILEPRESS_GLX_PRESENTS, mode}, environment);
+  environment["LD_PRELOAD"] = "";
+  const ProcessResult without = run_process({TILEPRESS_GLX_PRESENTS, mode}, environment);
   EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
   EXPECT_EQ(run.process.out, without.out);
   EXPECT_EQ(run.process.err, without.err);
@@ -194,6 +195,14 @@ TEST_P(GlxPresents, SwapBuffersMscIsAPresentUnlessItIsRefused) {
 TEST_P(GlxPresents, AContextDestroyedWhileCurrentLivesOn) {
   ShimTest test(GetParam());
   run_glx_presents(test, "destroyed");
+}
+
+// A driver may ask the X server about contexts, for which one that is destroyed is an error.
+TEST(Surfaces, AContextDestroyedWhileCurrentIsNotAskedAbout) {
+  ShimTest test;
+  run_glx_presents(
+      test, "destroyed",
+      {{"__GLX_VENDOR_LIBRARY_NAME", "strict"}, {"LD_LIBRARY_PATH", TILEPRESS_STRICT_VENDOR_FOLDER}});
 }
 
 TEST_P(GlxPresents, ASingleBufferedWindowIsReadToo) {
