@@ -9,6 +9,8 @@
 namespace tilepress {
 namespace {
 
+constexpr size_t kLineBytes = 64;  // of a cache; slots are so many bytes, or a multiple
+
 /// ORs `bits` bits of `from` into `plane` at bit `position`.
 void merge_bits(std::span<const uint8_t> from, uint32_t bits, std::span<uint8_t> plane, uint64_t position) {
   if (bits <= kMaxBitsPerCall && position / 8 + 8 <= plane.size()) {  // at once, if it ends in the word
@@ -95,7 +97,13 @@ void SurfaceStore::begin_frame(const SchemeSpec& spec, const ModelOptions& optio
 uint32_t SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& block) {
   last_.number = uint64_t{block.by} * blocks_x_ + block.bx;
   uint8_t* slot = payload_ + last_.number * slot_bytes_;
-  if (last_.number + 1 < blocks_) __builtin_prefetch(slot + slot_bytes_, 1);  // most often the next
+  if (last_.number + 1 < blocks_) {
+    // Most often the next: asked for as far as it was written in the frame before.
+    const uint8_t* next = slot + slot_bytes_;
+    __builtin_prefetch(next, 1);
+    const size_t bytes = block_bits_[last_.number + 1] / 8;
+    for (size_t at = kLineBytes; at < bytes; at += kLineBytes) __builtin_prefetch(next + at, 1);
+  }
   const StoredBlock stored = encoder.store(block, {slot, slot_bytes_}, last_.csb);
   uint16_t& bits = block_bits_[last_.number];
   const size_t used_before = (bits + 7u) / 8;
@@ -107,7 +115,6 @@ uint32_t SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& bloc
 }
 
 void SurfaceStore::put_again(uint32_t place, uint32_t bx, uint32_t bx_end, uint32_t by) {
-  constexpr size_t kLine = 64;  // slots are so many bytes, or a multiple
   const Put& kept = kept_[place];
   const uint16_t payload_bits = block_bits_[kept.number];
   const uint8_t* const from = payload_ + kept.number * slot_bytes_;
@@ -118,7 +125,7 @@ void SurfaceStore::put_again(uint32_t place, uint32_t bx, uint32_t bx_end, uint3
   for (uint16_t* const end = bits + (bx_end - bx); bits != end; ++bits, slot += slot_bytes) {
     const size_t most_bytes = (std::max(payload_bits, *bits) + 7u) / 8;
     // Whole lines: what lies behind a block's payload is zero in either slot.
-    for (size_t at = 0; at < most_bytes; at += kLine) std::memcpy(slot + at, from + at, kLine);
+    for (size_t at = 0; at < most_bytes; at += kLineBytes) std::memcpy(slot + at, from + at, kLineBytes);
     *bits = payload_bits;
   }
   put_csb(kept, first, bx_end - bx);
