@@ -75,6 +75,20 @@ std::vector<std::string> glx_vendors() {
   return names;
 }
 
+/// The GLX vendor that libglvnd's libGLX takes, as far as that is known here: the user's choice, or the only
+/// one installed if its EGL is what libEGL takes too. Of several, or with the driver of a graphics processor
+/// in folders of its own, the X server names one for each screen.
+std::string glx_vendor(const std::vector<std::string>& egl_files) {
+  if (const std::string wish = variable("__GLX_VENDOR_LIBRARY_NAME"); !wish.empty()) return wish;
+  const std::vector<std::string> installed = glx_vendors();
+  if (installed.size() != 1) return "";
+  const std::string beside = "libEGL_" + installed.front() + ".so.0";
+  const bool fits = std::any_of(egl_files.begin(), egl_files.end(), [&](const std::string& file) {
+    return fs::path(library_of(file)).filename() == beside;
+  });
+  return fits ? installed.front() : "";
+}
+
 fs::path vendor_folder(const std::string& preload_library) {
   std::error_code code;
   const fs::path beside = fs::path(preload_library).parent_path();
@@ -104,10 +118,10 @@ bool add_shim_environment(std::map<std::string, std::string>& environment, ShimR
   std::vector<std::string> files = egl_vendor_files();
   const bool has_driver =
       std::any_of(files.begin(), files.end(), [](const auto& file) { return !library_of(file).empty(); });
-  const std::vector<std::string> glx = glx_vendors();
-  const std::string glx_wish = variable("__GLX_VENDOR_LIBRARY_NAME");
+  const std::string glx = glx_vendor(files);
   // Where there are several vendors the preloaded library does, as far as it can.
-  const bool certain = files.size() == 1 && glx.size() <= 1 && glx_wish.empty();
+  const bool certain = files.size() == 1 && variable("__GLX_VENDOR_LIBRARY_NAME").empty() &&
+                       (!glx.empty() || glx_vendors().empty());
   if (road == ShimRoad::kAuto && (folder.empty() || !has_driver || !certain)) return true;
   if (folder.empty() || !has_driver) {
     error = folder.empty() ? "--via glvnd: libEGL_tilepress.so.0: not found beside " + preload_library
@@ -125,10 +139,9 @@ bool add_shim_environment(std::map<std::string, std::string>& environment, ShimR
     list += (list.empty() ? "" : ":") + (ours ? (folder / ("egl_vendor" + number + ".json")).string() : file);
   }
   environment["__EGL_VENDOR_LIBRARY_FILENAMES"] = list;
-  // Of several GLX vendors the X server names one for each screen, and it is not for us to name another.
-  if (!glx_wish.empty() || glx.size() <= 1) {
+  if (!glx.empty()) {
     environment["__GLX_VENDOR_LIBRARY_NAME"] = "tilepress";
-    environment["TILEPRESS_GLX_VENDOR"] = !glx_wish.empty() ? glx_wish : glx.empty() ? "mesa" : glx.front();
+    environment["TILEPRESS_GLX_VENDOR"] = glx;
   }
   const std::string libraries = variable("LD_LIBRARY_PATH");
   environment["LD_LIBRARY_PATH"] = libraries.empty() ? folder.string() : folder.string() + ":" + libraries;

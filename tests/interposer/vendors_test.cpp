@@ -71,5 +71,16 @@ TEST_F(Vendors, AUsersChoiceOfGlxVendorIsPassedOn) {
   EXPECT_EQ(added.at("TILEPRESS_GLX_VENDOR"), "chosen");
 }
 
+TEST_F(Vendors, TheOnlyGlxVendorIsPassedOnIfItIsOfTheSameDriver) {
+  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", vendor_file("50_mesa.json", "libEGL_mesa.so.0").c_str(), 1);
+  EXPECT_EQ(environment().at("TILEPRESS_GLX_VENDOR"), "mesa");
+  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", vendor_file("10_other.json", "libEGL_other.so.0").c_str(), 1);
+  EXPECT_EQ(environment().count("__GLX_VENDOR_LIBRARY_NAME"), 0u);
+  std::map<std::string, std::string> added;
+  std::string error;
+  EXPECT_TRUE(add_shim_environment(added, ShimRoad::kAuto, TILEPRESS_PRELOAD, error));
+  EXPECT_EQ(added.size(), added.count("LD_PRELOAD"));
+}
+
 }  // namespace
 }  // namespace tilepress::testing
