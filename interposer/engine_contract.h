@@ -18,7 +18,7 @@ struct TilepressPresent {
   void* display;               // EGLDisplay or Display*; NULL for OSMesa
   uintptr_t surface;           // EGLSurface or GLXDrawable; 0 for OSMesa
   uint32_t current_elsewhere;  // GLX: another thread has the drawable current
-  uint32_t context_destroyed;  // GLX: the calling thread has destroyed the context that it has current
+  uint32_t context_destroyed;  // GLX: the context that the calling thread has current is destroyed
   // x, y, width, height of each damage rectangle, origin at the bottom left; NULL = the whole surface
   const int32_t* damage;
   int32_t damage_count;

@@ -149,7 +149,7 @@ class GlxSource final : public PresentSource {
   static constexpr bool kResizable = true;  ///< a pbuffer's number tells nothing else
 
   /// The program has destroyed its context, which lives on until something else is made current; in Mesa
-  /// without a number, which tells where the calling thread was not the one.
+  /// without a number, which tells where the hooks have not seen it.
   bool context_is_destroyed(const TilepressPresent& present) const {
     if (present.context_destroyed != 0) return true;
     return glx_.GetContextIDEXT != nullptr && glx_.GetCurrentContext() != nullptr &&

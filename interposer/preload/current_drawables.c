@@ -1,25 +1,18 @@
-// What is current: a row per thread that has any drawable. Of a thread that ends with a context current the
+// What is current: a row per thread that has a drawable. Of a thread that ends with a context current the
 // row stays, as does the driver's.
 #include "current_drawables.h"
-
-#include <stddef.h>
 
 enum { ROWS = 128 };
 
 static struct {
   int taken;
-  uintptr_t draw, read;
+  uintptr_t draw, read, context;
+  int context_destroyed;
 } rows[ROWS];
 static int rows_missing;  // threads without a row: from then on nobody knows
 static __thread int own_row __attribute__((tls_model("initial-exec")));  // 0: none, else its number + 1
-static __thread struct {
-  const void* handle;
-  bool destroyed;
-} own_context __attribute__((tls_model("initial-exec")));
 
-void tp_made_current(uintptr_t draw, uintptr_t read, const void* context) {
-  own_context.handle = context;
-  own_context.destroyed = false;
+void tp_made_current(uintptr_t draw, uintptr_t read, uintptr_t context) {
   for (int row = 0; draw != 0 && own_row == 0 && row < ROWS; ++row) {
     int free_row = 0;
     if (__atomic_compare_exchange_n(&rows[row].taken, &free_row, 1, false, __ATOMIC_ACQ_REL,
@@ -32,17 +25,22 @@ void tp_made_current(uintptr_t draw, uintptr_t read, const void* context) {
   }
   __atomic_store_n(&rows[own_row - 1].draw, draw, __ATOMIC_RELEASE);
   __atomic_store_n(&rows[own_row - 1].read, read, __ATOMIC_RELEASE);
+  __atomic_store_n(&rows[own_row - 1].context_destroyed, 0, __ATOMIC_RELAXED);
+  __atomic_store_n(&rows[own_row - 1].context, context, __ATOMIC_RELEASE);
   if (draw != 0) return;
   __atomic_store_n(&rows[own_row - 1].taken, 0, __ATOMIC_RELEASE);
   own_row = 0;
 }
 
-void tp_context_destroyed(const void* context) {
-  if (context != NULL && context == own_context.handle) own_context.destroyed = true;
+void tp_context_destroyed(uintptr_t context) {
+  for (int row = 0; context != 0 && row < ROWS; ++row)
+    if (__atomic_load_n(&rows[row].taken, __ATOMIC_ACQUIRE) != 0 &&
+        __atomic_load_n(&rows[row].context, __ATOMIC_ACQUIRE) == context)
+      __atomic_store_n(&rows[row].context_destroyed, 1, __ATOMIC_RELEASE);
 }
 
 bool tp_current_context_is_destroyed(void) {
-  return own_context.destroyed;
+  return own_row != 0 && __atomic_load_n(&rows[own_row - 1].context_destroyed, __ATOMIC_ACQUIRE) != 0;
 }
 
 bool tp_is_current_elsewhere(uintptr_t drawable) {

@@ -5,14 +5,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// The calling thread has made these current; 0 and NULL = none.
-void tp_made_current(uintptr_t draw, uintptr_t read, const void* context);
+// The calling thread has made these current; 0 = none.
+void tp_made_current(uintptr_t draw, uintptr_t read, uintptr_t context);
 
-// The calling thread has the program's call to destroy `context` before it.
-void tp_context_destroyed(const void* context);
+// The program is about to destroy `context`, on whichever thread it is current.
+void tp_context_destroyed(uintptr_t context);
 
-// True if the calling thread has destroyed the context that it has current: asking the X server for it would
-// be an error.
+// True if the context that the calling thread has current on a drawable is destroyed: asking the X server for
+// it would be an error.
 bool tp_current_context_is_destroyed(void);
 
 // True if a thread other than the calling one has `drawable` current, or if nobody can know.

@@ -105,7 +105,7 @@ int tp_on_glx_make_current(void* real, tp_display display, tp_glx_drawable drawa
   if (real == NULL) return 0;
   tp_gl_making_current(TILEPRESS_GL_MAKE_CURRENT_3, arguments);
   const int result = ((int (*)(tp_display, tp_glx_drawable, tp_context))real)(display, drawable, context);
-  if (result != 0) tp_made_current(drawable, drawable, context);
+  if (result != 0) tp_made_current(drawable, drawable, (uintptr_t)context);
   return result;
 }
 
@@ -116,7 +116,7 @@ int tp_on_glx_make_context_current(void* real, tp_display display, tp_glx_drawab
   if (real == NULL) return 0;
   tp_gl_making_current(TILEPRESS_GL_MAKE_CURRENT, arguments);
   const int result = ((function)real)(display, draw, read, context);
-  if (result != 0) tp_made_current(draw, read, context);
+  if (result != 0) tp_made_current(draw, read, (uintptr_t)context);
   return result;
 }
 
@@ -179,6 +179,6 @@ tp_egl_boolean tp_on_egl_terminate(void* real, tp_display display) {
 void tp_on_glx_destroy_context(void* real, tp_display display, tp_context context) {
   if (real == NULL) return;
   tp_contexts_going(TILEPRESS_GLX, display, context);
-  tp_context_destroyed(context);
+  tp_context_destroyed((uintptr_t)context);
   ((void (*)(tp_display, tp_context))real)(display, context);
 }
