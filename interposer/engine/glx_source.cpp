@@ -265,7 +265,7 @@ class GlxSource final : public PresentSource {
                                          int drawable_config, VisualID visual) {
     int id = 0, screen = 0;
     const GLXContext context = glx_.GetCurrentContext();
-    if (present.context_destroyed != 0)
+    if (context_is_destroyed(present))
       screen = glx_.DefaultScreenOf(display);
     else if (glx_.QueryContext(display, context, GLX_SCREEN, &screen) != 0)
       return std::nullopt;

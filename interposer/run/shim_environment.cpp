@@ -78,9 +78,9 @@ std::vector<std::string> glx_vendors() {
 /// The GLX vendor that libglvnd's libGLX takes, as far as that is known here: the user's choice, or the only
 /// one installed if its EGL is what libEGL takes too. Of several, or with the driver of a graphics processor
 /// in folders of its own, the X server names one for each screen.
-std::string glx_vendor(const std::vector<std::string>& egl_files) {
-  if (const std::string wish = variable("__GLX_VENDOR_LIBRARY_NAME"); !wish.empty()) return wish;
-  const std::vector<std::string> installed = glx_vendors();
+std::string glx_vendor(const std::string& wish, const std::vector<std::string>& installed,
+                       const std::vector<std::string>& egl_files) {
+  if (!wish.empty()) return wish;
   if (installed.size() != 1) return "";
   const std::string beside = "libEGL_" + installed.front() + ".so.0";
   const bool fits = std::any_of(egl_files.begin(), egl_files.end(), [&](const std::string& file) {
@@ -118,10 +118,11 @@ bool add_shim_environment(std::map<std::string, std::string>& environment, ShimR
   std::vector<std::string> files = egl_vendor_files();
   const bool has_driver =
       std::any_of(files.begin(), files.end(), [](const auto& file) { return !library_of(file).empty(); });
-  const std::string glx = glx_vendor(files);
+  const std::vector<std::string> glx_installed = glx_vendors();
+  const std::string glx_wish = variable("__GLX_VENDOR_LIBRARY_NAME");
+  const std::string glx = glx_vendor(glx_wish, glx_installed, files);
   // Where there are several vendors the preloaded library does, as far as it can.
-  const bool certain = files.size() == 1 && variable("__GLX_VENDOR_LIBRARY_NAME").empty() &&
-                       (!glx.empty() || glx_vendors().empty());
+  const bool certain = files.size() == 1 && glx_wish.empty() && (!glx.empty() || glx_installed.empty());
   if (road == ShimRoad::kAuto && (folder.empty() || !has_driver || !certain)) return true;
   if (folder.empty() || !has_driver) {
     error = folder.empty() ? "--via glvnd: libEGL_tilepress.so.0: not found beside " + preload_library
