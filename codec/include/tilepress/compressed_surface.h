@@ -2,7 +2,9 @@
 // Surface, §Memory layout).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,19 @@
 #include "tilepress/surface_engine.h"
 
 namespace tilepress {
+
+/// Memory from the beginning of a cache line on, so that a slot takes no line more than it fills.
+template <typename T>
+struct LineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t kLineBytes{64};
+  LineAllocator() = default;
+  template <typename U>
+  LineAllocator(const LineAllocator<U>&) {}
+  T* allocate(size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLineBytes)); }
+  void deallocate(T* at, size_t) { ::operator delete(at, kLineBytes); }
+  bool operator==(const LineAllocator&) const = default;
+};
 
 /// Blocks lie at fixed slots of S0 bytes, the size of a raw block, in raster order: block (bx, by) has number
 /// by · blocks_x + bx. A block uses the first payload bits of its slot; the rest stays empty. CSB and tables
@@ -27,9 +42,9 @@ struct CompressedSurface {
   uint32_t csb_bits = 0;    ///< of one block
   uint64_t table_bits = 0;  ///< rCCD or code table; 0 = none
 
-  std::vector<uint8_t> payload;  ///< blocks() · slot_bytes()
-  std::vector<uint8_t> csb;      ///< ceil(blocks() · csb_bits / 8)
-  std::vector<uint8_t> tables;   ///< ceil(table_bits / 8)
+  std::vector<uint8_t, LineAllocator<uint8_t>> payload;  ///< blocks() · slot_bytes()
+  std::vector<uint8_t> csb;                              ///< ceil(blocks() · csb_bits / 8)
+  std::vector<uint8_t> tables;                           ///< ceil(table_bits / 8)
 
   /// Payload bits of each block: bookkeeping of the encoder for files and statistics. No part of the memory
   /// image: the reader finds sizes from CSB and payload.

@@ -1,6 +1,8 @@
 // A compressed surface gives every pixel back, in any order, for every scheme and format.
 #include <gtest/gtest.h>
 
+#include <span>
+
 #include "surface_samples.h"
 #include "tilepress/scheme.h"
 #include "tilepress/simd.h"
@@ -131,9 +133,10 @@ TEST_P(EverySchemeTest, DamagedSurfacesAreReadOrRefusedButNeverWander) {
   std::mt19937 random(7);
   for (int i = 0; i < 300; ++i) {
     CompressedSurface surface = whole;
-    for (auto* plane : {&surface.payload, &surface.csb, &surface.tables})
-      for (int n = 0; n < 3 && !plane->empty(); ++n)
-        (*plane)[random() % plane->size()] ^= static_cast<uint8_t>(1 + random() % 255);
+    for (const std::span<uint8_t> plane :
+         {std::span<uint8_t>(surface.payload), std::span(surface.csb), std::span(surface.tables)})
+      for (int n = 0; n < 3 && !plane.empty(); ++n)
+        plane[random() % plane.size()] ^= static_cast<uint8_t>(1 + random() % 255);
     SurfaceReader reader;
     std::string error;
     Block block;
@@ -182,6 +185,15 @@ TEST(CompressedSurface, TheSlotOfARawBlockHasTheFormatsSize) {
   EXPECT_EQ(surface.slot_bytes(), 128u) << "64 pixels of 2 bytes";
   surface.burst_bits = 2048;
   EXPECT_EQ(surface.slot_bytes(), 256u) << "one whole burst";
+}
+
+TEST(CompressedSurface, SlotsBeginWithACacheLine) {
+  for (const uint32_t side : {8u, 72u, 1000u}) {
+    const auto frame = mixed_frame(side, side, PixelFormat::kRgb565, 1);
+    const CompressedSurface surface = compress("vdcp", {frame}, {}), copy = surface;
+    for (const auto* each : {&surface, &copy})
+      EXPECT_EQ(reinterpret_cast<uintptr_t>(each->payload.data()) % 64, 0u) << side;
+  }
 }
 
 TEST(CompressedSurface, SurfacesOfImpossibleShapeAreRefusedWithAReason) {
