@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 
+#include "simd/kernels.h"
 #include "tilepress/bit_io.h"
 #include "tilepress/block.h"
 
@@ -42,13 +42,7 @@ inline void write_raw_block(const uint32_t* pixels, uint32_t pixel_bits, BitWrit
 inline void read_raw_block(BitReader& in, uint32_t pixel_bits, Block& block) {
   const uint8_t* bytes = pixel_bits == 32 ? in.at_byte(kMaxRawBlockBits / 8) : nullptr;
   if (bytes != nullptr) {  // most often
-    for (uint32_t i = 0; i < kBlockPixels; i += 2) {
-      uint64_t pair;
-      std::memcpy(&pair, bytes + 4 * i, 8);
-      pair = bit_io::big_endian(pair);
-      block.pixels[kTraversal[i]] = static_cast<uint32_t>(pair >> 32);
-      block.pixels[kTraversal[i + 1]] = static_cast<uint32_t>(pair);
-    }
+    kernels().read_raw(bytes, block.pixels.data());
     return in.skip(kMaxRawBlockBits);
   }
   for (uint32_t sub = 0; sub < kSubBlocks; ++sub) read_raw_sub_block(in, sub, pixel_bits, block);

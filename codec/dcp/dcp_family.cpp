@@ -2,6 +2,7 @@
 #include "dcp/dcp_family.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "dcp/vdcp.h"
 #include "simd/kernels.h"
@@ -64,17 +65,16 @@ bool DcpFamilyDecoder::read_solid(uint64_t marks, uint32_t mark_bits, BitReader&
   const uint64_t width = marks & ((1u << mark_bits) - 1);
   if (width > index_bits_ || marks >> mark_bits != (marks & ((uint64_t{1} << 7 * mark_bits) - 1)))
     return false;
-  const uint32_t at_once = 8 * width <= kMaxBitsPerCall ? 8 : 4;
-  const auto bits = static_cast<uint32_t>(at_once * width);
+  // Eight indices are `width` bytes, the same eight times.
+  const uint8_t* bytes = payload.at_byte(8 * width);
+  if (bytes == nullptr || std::memcmp(bytes, bytes + width, 7 * width) != 0) return false;
+  const auto four_bits = static_cast<uint32_t>(4 * width);
   BitReader in = payload;
-  const uint64_t indices = in.get(bits);
-  for (uint32_t i = at_once; i < kBlockPixels && width != 0; i += at_once)
-    if (in.get(bits) != indices) return false;
-  const uint64_t index = indices & ((uint64_t{1} << width) - 1);
-  const bool alike = indices >> width == (indices & ((uint64_t{1} << (at_once - 1) * width) - 1));
+  const uint64_t four = in.get(four_bits), index = four & ((uint64_t{1} << width) - 1);
+  const bool alike = four >> width == (four & ((uint64_t{1} << 3 * width) - 1)) && in.get(four_bits) == four;
   if (!alike || index >= rccd_.colors.size()) return false;
   out.pixels.fill(rccd_.colors[index]);
-  payload = in;
+  payload.skip(kBlockPixels * width);
   return true;
 }
 

@@ -114,6 +114,9 @@ struct Kernels {
   uint32_t (*read_indices)(const uint8_t* bytes, const uint64_t marks[2], uint32_t mark_bits,
                            uint32_t most_bits, const uint32_t* colors, uint32_t known, uint32_t* raster);
 
+  /// Restores a raw block of 32-bit pixels to raster order, from 256 bytes.
+  void (*read_raw)(const uint8_t* bytes, uint32_t* raster);
+
   /// Bits of a block in codes of `lengths`, up to 127 each, by index: of each sub-block the sum over its
   /// indices, but `raw_bits` where that is more or one is kNotInCcd. raw_bits is 64 or 128, indices are below
   /// 64.

@@ -58,6 +58,21 @@ bool LoadTraversal(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint3
   return hn::AllTrue(d32, hn::Eq(hn::BitCast(d32, difference), hn::Zero(d32)));
 }
 
+void ReadRaw(const uint8_t* HWY_RESTRICT bytes, uint32_t* HWY_RESTRICT raster) {
+  const hn::Full128<uint8_t> d;
+  const hn::Full128<uint64_t> d64;  // two pixels a lane
+  alignas(16) static constexpr uint8_t kBigEndian[16] = {3,  2,  1, 0, 7,  6,  5,  4,
+                                                         11, 10, 9, 8, 15, 14, 13, 12};
+  const auto big_endian = hn::Load(d, kBigEndian);
+  for (uint32_t y = 0; y < 8; y += 2, raster += 16)
+    for (uint32_t x = 0; x < 8; x += 4, bytes += 32) {
+      const auto a = hn::BitCast(d64, hn::TableLookupBytes(hn::LoadU(d, bytes), big_endian));
+      const auto b = hn::BitCast(d64, hn::TableLookupBytes(hn::LoadU(d, bytes + 16), big_endian));
+      hn::StoreU(hn::InterleaveLower(d64, a, b), d64, reinterpret_cast<uint64_t*>(raster + x));
+      hn::StoreU(hn::InterleaveUpper(d64, a, b), d64, reinterpret_cast<uint64_t*>(raster + 8 + x));
+    }
+}
+
 uint32_t SolidBlocks(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, uint32_t color, uint32_t most) {
   const hn::CappedTag<uint32_t, 8> d;
   const auto wanted = hn::Set(d, color);
@@ -331,6 +346,7 @@ const Kernels& Set(const char* name) {
       .pack = Pack,
       .write_sub_blocks = write_sub_blocks_plainly,
       .read_indices = read_indices_plainly,
+      .read_raw = ReadRaw,
       .code_sum = code_sum_plainly,
       .count_up_to = CountUpTo,
       .members = Members,

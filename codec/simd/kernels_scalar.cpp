@@ -232,6 +232,11 @@ void widen_bytes(const uint32_t* top_left, uint32_t stride, int16_t* samples) {
             static_cast<int16_t>(top_left[y * stride + x] >> (8 * c) & 0xFF);
 }
 
+void read_raw(const uint8_t* bytes, uint32_t* raster) {
+  BitReader bits({bytes, kMaxRawBlockBits / 8});
+  for (const uint8_t place : kTraversal) raster[place] = static_cast<uint32_t>(bits.get(32));
+}
+
 }  // namespace
 
 bool load_slots_plainly(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, SlotLookups& lookups) {
@@ -334,6 +339,7 @@ const Kernels& scalar_kernels() {
       .pack = pack,
       .write_sub_blocks = write_sub_blocks_plainly,
       .read_indices = read_indices_plainly,
+      .read_raw = read_raw,
       .code_sum = code_sum_plainly,
       .count_up_to = count_up_to,
       .members = members,

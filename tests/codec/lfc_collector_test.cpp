@@ -187,6 +187,8 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
       ASSERT_EQ(indices_read, no_raw.bits);
       for (uint32_t i = 0; i < 64; ++i) ASSERT_EQ(raster[kTraversal[i]], pixels[low_indices[i]]);
     }
+    uint8_t raw_bytes[256];
+    for (uint8_t& byte : raw_bytes) byte = static_cast<uint8_t>(dice.next());
     uint8_t slots[64];
     for (uint8_t& slot : slots) slot = static_cast<uint8_t>(dice.below(1 + dice.below(64)));
     std::array<uint32_t, 64> counted{};
@@ -228,6 +230,12 @@ TEST(Kernels, ThatTakeABlockApartAgreeOnEveryTarget) {
                                        known, other_raster),
                 indices_read);
       ASSERT_TRUE(indices_read == kNotAllIndices || std::ranges::equal(raster, other_raster));
+      kernels().read_raw(raw_bytes, other_raster);
+      for (uint32_t i = 0; i < 64; ++i) {
+        const uint8_t* at = raw_bytes + 4 * i;
+        ASSERT_EQ(other_raster[kTraversal[i]],
+                  uint32_t{at[0]} << 24 | uint32_t{at[1]} << 16 | uint32_t{at[2]} << 8 | at[3]);
+      }
       std::array<uint32_t, 64> other_counted{};
       ASSERT_EQ(kernels().count_slots(slots, mask, other_counted.data()), left);
       ASSERT_EQ(other_counted, counted);
