@@ -11,14 +11,12 @@
 #include <utility>
 
 #include "block_check.h"
-#include "dcp/collector.h"
-#include "few_color_search.h"
+#include "collectors.h"
 #include "memory/surface_store.h"
 #include "ras/ras_memo.h"
 #include "row_prefetch.h"
 #include "simd/kernels.h"
 #include "solid_blocks.h"
-#include "statistics/frame_metrics.h"
 #include "tilepress/scheme.h"
 #include "tilepress/tiler.h"
 
@@ -57,8 +55,7 @@ class StepTime {
 struct SurfaceEngine::State {
   std::vector<SchemeSpec> specs;
   ModelOptions options;
-  /// With frame_metrics the first is the default, theirs.
-  std::vector<std::unique_ptr<Collector>> collectors;
+  Collectors collectors;  ///< with frame_metrics the first is the default, theirs
   std::vector<Lane> lanes;
   PixelPlane now;
   bool referred = false;    ///< now is the frame where it lies, and no copy
@@ -66,7 +63,6 @@ struct SurfaceEngine::State {
   RowPrefetch prefetch;
   uint64_t changed = 0;  ///< pixels, since the frame before
   RasMemo ras_memo;
-  FrameMeter meter;
   BlockCheck check;
   uint64_t ordinal = 0;
   bool has_before = false;  ///< now held a frame before this one
@@ -76,17 +72,8 @@ struct SurfaceEngine::State {
   bool compares_frames = false;  ///< with the one before, so that a copy of it is needed
   bool can_repeat = true;        ///< blocks of one colour count like the first of that colour
   SolidBlocks solids;
-  bool last_solid = false;  ///< the block visited last was of one colour,
-  uint32_t last_place = 0;  ///< which is kept there
-  /// Pixels of one colour in a row that the collectors have not seen yet.
-  struct {
-    uint32_t color = 0, count = 0;
-  } run;
-  FewColorSearch few_color_search;
-  const FewColors* few = nullptr;         ///< colours of the block being visited; null: not known to be few
-  bool loads_slots = false;               ///< the first collector loads blocks, and looks them up at once
-  bool wants_few = false;                 ///< a collector makes use of few colours, or the meter does
-  bool meter_looks = false;               ///< the meter has to see the pixels, and no collector tells it
+  bool last_solid = false;                ///< the block visited last was of one colour,
+  uint32_t last_place = 0;                ///< which is kept there
   std::span<CompressedSurface> surfaces;  ///< where this frame is stored; empty if nowhere
   BlockBits* block_bits = nullptr;
   uint32_t burst_round = 0, burst_shift = 0;  ///< burst_bits is a power of two
@@ -94,7 +81,6 @@ struct SurfaceEngine::State {
   FrameStatistics* out = nullptr;
   uint32_t next_row = 0;  ///< of blocks
   void open(const FormatTraits& format);
-  Collector& collector_for(const FvcConfig& config, const FormatTraits& format);
   void begin_frame();
   void take_rows(uint32_t begin, uint32_t end);
   void prefetch_tiles(uint32_t begin);
@@ -106,9 +92,7 @@ struct SurfaceEngine::State {
   void repeat_solid(uint32_t place, uint32_t bx, uint32_t count, uint32_t by);
   void settle_repeats(uint32_t place);
   uint32_t pixels_inside(uint32_t bx, uint32_t blocks, uint32_t by) const;
-  void collect_solid(uint32_t count, uint32_t color);
   void collect(const BlockContext& block);
-  void settle_run();
   uint32_t ras_bits(const BlockContext& block, const uint32_t* top_left, const FormatTraits& format,
                     bool ycocg) {
     if (block.uniform) return ras_uniform_bits(format, ycocg);
@@ -117,17 +101,11 @@ struct SurfaceEngine::State {
   void end_frame();
 };
 
-Collector& SurfaceEngine::State::collector_for(const FvcConfig& config, const FormatTraits& format) {
-  for (const auto& collector : collectors)
-    if (collector->fvc().config() == config) return *collector;
-  return *collectors.emplace_back(std::make_unique<Collector>(config, format));
-}
-
 void SurfaceEngine::State::open(const FormatTraits& format) {
   opened = true;
   burst_round = options.burst_bits - 1;
   burst_shift = static_cast<uint32_t>(std::countr_zero(options.burst_bits));
-  if (options.frame_metrics) collector_for(FvcConfig{}, format);
+  if (options.frame_metrics) collectors.of(FvcConfig{}, format);
   for (const SchemeSpec& spec : specs) {
     const SchemeInfo* info = find_scheme(spec.name);
     assert(info != nullptr);
@@ -136,7 +114,7 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
     if (options.verify) lane.decoder = info->make_decoder(spec, format, options);
     lane.needs = lane.encoder->needs();
     if (lane.needs.ccd) {
-      lane.collector = &collector_for(spec.fvc, format);
+      lane.collector = &collectors.of(spec.fvc, format);
       lane.collector->wanted = true;
     }
     needs_ras |= lane.needs.ras;
@@ -148,7 +126,7 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
     lanes.push_back(std::move(lane));
   }
   compares_frames = options.frame_metrics || needs_ras || needs_ras_ycocg;
-  loads_slots = kernels().byte_permutes && !collectors.empty();
+  collectors.open(options.frame_metrics);
 }
 
 void SurfaceEngine::State::begin_frame() {
@@ -165,15 +143,9 @@ void SurfaceEngine::State::begin_frame() {
   changed = 0;
   ras_memo.begin_frame(now.blocks(), has_before, needs_ras, needs_ras_ycocg);
   if (needs_whole_frame) take_rows(0, now.blocks_y());
-  for (const auto& collector : collectors) collector->begin_frame(ordinal);
+  collectors.begin_frame(ordinal, size_t{now.width()} * now.height());
   solids.clear();
   last_solid = false;
-  meter_looks = false;
-  if (options.frame_metrics) {
-    meter.begin_frame(size_t{now.width()} * now.height());
-    meter_looks = meter.counting() && !collectors.front()->listen(&meter);
-  }
-  wants_few = meter_looks || (!loads_slots && !collectors.empty());
   out->schemes.assign(lanes.size(), SchemeStatistics{});
   if (block_bits != nullptr) {
     block_bits->blocks_x = now.blocks_x();
@@ -224,35 +196,16 @@ uint32_t SurfaceEngine::State::pixels_inside(uint32_t bx, uint32_t blocks, uint3
          std::min(kBlockSide, now.height() - by * kBlockSide);
 }
 
-void SurfaceEngine::State::settle_run() {
-  if (run.count == 0) return;
-  for (const auto& collector : collectors) collector->see_run(run.color, run.count);
-  if (meter_looks) meter.see_run(run.color, run.count);
-  run.count = 0;
-}
-
-void SurfaceEngine::State::collect_solid(uint32_t count, uint32_t color) {
-  if (run.color != color) settle_run();
-  run.color = color;
-  run.count += count;
-}
-
 void SurfaceEngine::State::collect(const BlockContext& block) {
   uint32_t count = pixels_inside(block.bx, 1, block.by);
-  if (block.uniform) return collect_solid(count, block.pixels[0]);
-  settle_run();
-  const uint32_t* pixels = block.pixels;
+  if (block.uniform) return collectors.see_solid(block.pixels[0], count);
+  if (count == kBlockPixels) return collectors.see(block.pixels, count);
+  const uint32_t width = now.width() - block.bx * kBlockSide, height = now.height() - block.by * kBlockSide;
   uint32_t inside[kBlockPixels];
-  if (count < kBlockPixels) {
-    const uint32_t width = now.width() - block.bx * kBlockSide, height = now.height() - block.by * kBlockSide;
-    count = 0;
-    for (uint32_t i = 0; i < kBlockPixels; ++i)
-      if (kTraversal[i] % 8 < width && kTraversal[i] / 8 < height) inside[count++] = block.pixels[i];
-    pixels = inside;
-  }
-  const FewColors* whole_few = count == kBlockPixels ? few : nullptr;
-  if (meter_looks) whole_few != nullptr ? meter.see_block(*whole_few) : meter.see_all(pixels, count);
-  for (const auto& collector : collectors) collector->see_all(pixels, count, whole_few);
+  count = 0;
+  for (uint32_t i = 0; i < kBlockPixels; ++i)
+    if (kTraversal[i] % 8 < width && kTraversal[i] / 8 < height) inside[count++] = block.pixels[i];
+  collectors.see(inside, count);
 }
 
 /// Blocks of one colour, as the last was, come in rows. Returns how many from `bx` on are like that one.
@@ -267,7 +220,7 @@ uint32_t SurfaceEngine::State::repeat_last(uint32_t bx, uint32_t bx_end, uint32_
 /// `count` blocks side by side of the colour kept at `place`.
 void SurfaceEngine::State::repeat_solid(uint32_t place, uint32_t bx, uint32_t count, uint32_t by) {
   solids.repeat(place, count);
-  collect_solid(pixels_inside(bx, count, by), solids.color(place));
+  collectors.see_solid(solids.color(place), pixels_inside(bx, count, by));
   if (!surfaces.empty())
     for (Lane& lane : lanes) lane.store.put_again(place, bx, bx + count, by);
   if (block_bits != nullptr)
@@ -294,24 +247,16 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by, const FormatTra
   alignas(64) uint32_t pixels[kBlockPixels];
   Block block;
   BlockContext context{.block = block, .bx = bx, .by = by, .pixels = pixels};
-  if (loads_slots) {
-    settle_run();  // so that the members are those the block meets
-    context.uniform = collectors.front()->load(top_left, now.stride(), pixels);
-  } else {
-    context.uniform = kernels().load_traversal(top_left, now.stride(), pixels);
-  }
+  context.uniform = collectors.load(top_left, now.stride(), pixels);
   last_solid = context.uniform;
   if (context.uniform) {
     last_place = SolidBlocks::place_of(pixels[0]);
     if (can_repeat && solids.holds(last_place, pixels[0])) return repeat_solid(last_place, bx, 1, by);
     settle_repeats(last_place);
     solids.keep(last_place, pixels[0]);
+    collectors.look_up_solid(pixels);
   }
-  few = wants_few && !context.uniform ? few_color_search.look(pixels) : nullptr;
   if (needs_raster || (needs_raster_to_encode && !surfaces.empty())) now.load_block(bx, by, block);
-  for (size_t i = loads_slots && !context.uniform ? 1 : 0; i < collectors.size(); ++i)
-    if (collectors[i]->wanted && collectors[i]->ccd() != nullptr)
-      collectors[i]->look_up(pixels, context.uniform, few);
   if (needs_ras) context.ras_bits = ras_bits(context, top_left, format, false);
   if (needs_ras_ycocg) context.ras_ycocg_bits = ras_bits(context, top_left, format, true);
   for (size_t i = 0; i < lanes.size(); ++i) {
@@ -359,8 +304,7 @@ void SurfaceEngine::State::advance() {
 
 void SurfaceEngine::State::end_frame() {
   for (uint32_t place = 0; place < SolidBlocks::kPlaces; ++place) settle_repeats(place);
-  settle_run();
-  for (const auto& collector : collectors) collector->end_frame();
+  collectors.end_frame();
   const uint64_t blocks = now.blocks();
   for (size_t i = 0; i < lanes.size(); ++i) {
     SchemeStatistics& scheme = out->schemes[i];
@@ -368,12 +312,8 @@ void SurfaceEngine::State::end_frame() {
     scheme.raw_bits = blocks * kBlockPixels * traits(now.format()).pixel_bits;
     scheme.csb_bits = blocks * lanes[i].csb_bits;
   }
-  out->metrics = FrameMetrics{};
-  if (options.frame_metrics)
-    out->metrics =
-        meter.measure(now, has_before ? std::optional(changed) : std::nullopt, collectors.front()->fvc());
-  for (const auto& collector : collectors)
-    if (collector->wanted) collector->build_ccd();
+  out->metrics = collectors.metrics(now, has_before ? std::optional(changed) : std::nullopt);
+  collectors.build_ccds();
   has_before = true;
   ++ordinal;
 }
