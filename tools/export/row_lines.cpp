@@ -51,7 +51,7 @@ bool write_rows(const std::string& file, const std::string& start, FILE* out, st
   CsvReader reader(text);
   std::vector<std::string> header, fields;
   if (!reader.next(header)) return true;
-  for (std::string& name : header) name = "," + json_text(name) + ":";
+  for (std::string& name : header) name = ',' + json_text(name) + ':';
   while (reader.next(fields)) {
     std::string line = start;
     for (size_t i = 0; i < fields.size() && i < header.size(); ++i) {
