@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "expected_picture.h"
 #include "shim_process.h"
@@ -196,7 +197,16 @@ TEST(Readback, TheFirstFramesOfAWindowDecideAndTheLogSaysHow) {
   ASSERT_EQ(run.runs[0].presents.size(), 40u);
   for (size_t i = 0; i < 17; ++i)
     EXPECT_EQ(run.runs[0].presents[i].at("readback"), i < 10 ? "sync" : "both") << i;
-  EXPECT_NE(run.log.find("surface 0: synchronous reads "), std::string::npos) << run.log;
+  const size_t line = run.log.find("surface 0: synchronous reads ");
+  ASSERT_NE(line, std::string::npos) << run.log;
+  double synchronous = 0, buffered = 0;
+  EXPECT_EQ(
+      std::sscanf(run.log.c_str() + line, "surface 0: synchronous reads %lf ms, into pixel buffers %lf ms",
+                  &synchronous, &buffered),
+      2)
+      << run.log;
+  EXPECT_GT(synchronous, 0);
+  EXPECT_GT(buffered, 0);
   for (unsigned frame = 0; frame < 40; ++frame)
     EXPECT_EQ(test.dump(0, frame), expected_picture(frame, 67, 45, true)) << "frame " << frame;
 }
