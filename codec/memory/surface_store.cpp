@@ -9,8 +9,6 @@
 namespace tilepress {
 namespace {
 
-constexpr size_t kLineBytes = 64;  // of a cache; slots are so many bytes, or a multiple
-
 /// ORs `bits` bits of `from` into `plane` at bit `position`.
 void merge_bits(std::span<const uint8_t> from, uint32_t bits, std::span<uint8_t> plane, uint64_t position) {
   if (bits <= kMaxBitsPerCall && position / 8 + 8 <= plane.size()) {  // at once, if it ends in the word
@@ -102,7 +100,7 @@ uint32_t SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& bloc
     const uint8_t* next = slot + slot_bytes_;
     __builtin_prefetch(next, 1);
     const size_t bytes = block_bits_[last_.number + 1] / 8;
-    for (size_t at = kLineBytes; at < bytes; at += kLineBytes) __builtin_prefetch(next + at, 1);
+    for (size_t at = kCacheLineBytes; at < bytes; at += kCacheLineBytes) __builtin_prefetch(next + at, 1);
   }
   const StoredBlock stored = encoder.store(block, {slot, slot_bytes_}, last_.csb);
   uint16_t& bits = block_bits_[last_.number];
@@ -124,8 +122,9 @@ void SurfaceStore::put_again(uint32_t place, uint32_t bx, uint32_t bx_end, uint3
   const size_t slot_bytes = slot_bytes_;
   for (uint16_t* const end = bits + (bx_end - bx); bits != end; ++bits, slot += slot_bytes) {
     const size_t most_bytes = (std::max(payload_bits, *bits) + 7u) / 8;
-    // Whole lines: what lies behind a block's payload is zero in either slot.
-    for (size_t at = 0; at < most_bytes; at += kLineBytes) std::memcpy(slot + at, from + at, kLineBytes);
+    // Whole lines, of which slots are made: what lies behind a block's payload is zero in either slot.
+    for (size_t at = 0; at < most_bytes; at += kCacheLineBytes)
+      std::memcpy(slot + at, from + at, kCacheLineBytes);
     *bits = payload_bits;
   }
   put_csb(kept, first, bx_end - bx);

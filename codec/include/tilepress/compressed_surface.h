@@ -15,16 +15,18 @@
 
 namespace tilepress {
 
+constexpr size_t kCacheLineBytes = 64;
+
 /// Memory from the beginning of a cache line on, so that a slot takes no line more than it fills.
 template <typename T>
 struct LineAllocator {
   using value_type = T;
-  static constexpr std::align_val_t kLineBytes{64};
+  static constexpr std::align_val_t kAlignment{kCacheLineBytes};
   LineAllocator() = default;
   template <typename U>
   LineAllocator(const LineAllocator<U>&) {}
-  T* allocate(size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLineBytes)); }
-  void deallocate(T* at, size_t) { ::operator delete(at, kLineBytes); }
+  T* allocate(size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kAlignment)); }
+  void deallocate(T* at, size_t) { ::operator delete(at, kAlignment); }
   bool operator==(const LineAllocator&) const = default;
 };
 
