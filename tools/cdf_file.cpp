@@ -1,5 +1,9 @@
-// CDF file: rows are flushed frame by frame.
+// CDF file: one write() a frame.
 #include "cdf_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -31,12 +35,16 @@ bool CdfFile::open(const std::string& path, bool force, std::string& error) {
   std::error_code ignored;
   if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
     std::filesystem::create_directories(folder, ignored);
-  file_.reset(std::fopen(path.c_str(), force ? "w" : "wx"));
-  if (!file_) {
+  struct stat status {};
+  const bool device = stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
+  fd_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | (force || device ? O_TRUNC : O_EXCL), 0666);
+  if (fd_ < 0) {
     error = path + ": " + (errno == EEXIST ? "exists (--force replaces it)" : std::strerror(errno));
     return false;
   }
-  return write(color_cdf_header(), error);
+  if (write(color_cdf_header(), error)) return true;
+  if (!device) unlink(path.c_str());
+  return false;
 }
 
 bool CdfFile::append(const FrameStatistics& frame, const SurfaceView& view, std::string& error) {
@@ -45,11 +53,24 @@ bool CdfFile::append(const FrameStatistics& frame, const SurfaceView& view, std:
   return write(rows, error);
 }
 
+CdfFile::~CdfFile() {
+  if (fd_ >= 0) close(fd_);
+}
+
 bool CdfFile::write(const std::string& text, std::string& error) {
-  if (std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size() && std::fflush(file_.get()) == 0)
-    return true;
-  error = path_ + ": " + std::strerror(errno);
-  return false;
+  const off_t before = lseek(fd_, 0, SEEK_CUR);
+  for (size_t done = 0; done < text.size();) {
+    const ssize_t written = ::write(fd_, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) {
+      error = path_ + ": " + std::strerror(written == 0 ? ENOSPC : errno);
+      if (before >= 0 && done > 0 && ftruncate(fd_, before) != 0) { /* the error is told as it is */
+      }
+      return false;
+    }
+    done += static_cast<size_t>(written);
+  }
+  return true;
 }
 
 }  // namespace tilepress

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <memory>
 #include <string>
 
 #include "tilepress/run_options.h"
@@ -17,17 +15,22 @@ void add_cdf_options(CLI::App& app, std::string& path, FrameSet& frames);
 
 class CdfFile {
  public:
+  CdfFile() = default;
+  CdfFile(const CdfFile&) = delete;
+  CdfFile& operator=(const CdfFile&) = delete;
+  ~CdfFile();
   /// Creates the file and writes the header row. An existing file is replaced only with `force`. False and
   /// one line in `error`.
   bool open(const std::string& path, bool force, std::string& error);
-  bool is_open() const { return file_ != nullptr; }
+  bool is_open() const { return fd_ >= 0; }
   /// Adds a row per colour of `view`, the pixels of `frame`. False and one line in `error`.
   bool append(const FrameStatistics& frame, const SurfaceView& view, std::string& error);
 
  private:
+  /// All of `text` or nothing: what a full disk lets through is cut off again.
   bool write(const std::string& text, std::string& error);
   std::string path_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{nullptr, std::fclose};
+  int fd_ = -1;
 };
 
 }  // namespace tilepress

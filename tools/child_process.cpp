@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "command_line.h"
+#include "streams/standard_streams.h"
 
 namespace tilepress {
 namespace {
@@ -80,6 +81,7 @@ class SignalForwarding {
   std::vector<char*> words;
   for (const std::string& word : argv) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
+  restore_sigpipe();
   execvp(words[0], words.data());
   const int error = errno;
   if (write(report_fd, &error, sizeof error) < 0) _exit(kExitLauncherFailed);

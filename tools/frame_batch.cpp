@@ -16,12 +16,15 @@ namespace {
 
 /// Long enough that the frames computed twice hardly count, short enough that rows keep coming.
 constexpr size_t kLongestRange = 64;
+/// How often a thread that waits for a frame looks whether it is to stop.
+constexpr std::chrono::milliseconds kStopPeriod{20};
 
 class FrameBatch {
  public:
   FrameBatch(const ImageFrames& images, const std::vector<uint64_t>& numbers, const RunOptions& options,
-             const std::string& pictures_path, uint32_t jobs)
-      : images_(images),
+             const std::string& pictures_path, uint32_t jobs, const std::atomic<int>& stop)
+      : stop_(stop),
+        images_(images),
         numbers_(numbers),
         options_(options),
         pictures_path_(pictures_path),
@@ -50,7 +53,9 @@ class FrameBatch {
                      std::string& error) {
     for (;;) {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return range.ended || !range.ready.empty(); });
+      const auto goes_on = [&] { return range.ended || !range.ready.empty(); };
+      while (!changed_.wait_for(lock, kStopPeriod, goes_on))
+        if (stop_ != 0) return false;
       if (range.ready.empty()) {
         error = range.error;
         return error.empty();
@@ -88,7 +93,7 @@ class FrameBatch {
     const size_t begin = r * range_, end = std::min(begin + range_, numbers_.size());
     std::string error;
     for (uint64_t ordinal : engine.history(begin, worker.images.format()))
-      if (!run_frame(worker, engine, ordinal, false, error)) return error;
+      if (stopping_ || !run_frame(worker, engine, ordinal, false, error)) return error;
     for (size_t ordinal = begin; ordinal < end && !stopping_; ++ordinal) {
       if (!run_frame(worker, engine, ordinal, true, error)) return error;
       const std::lock_guard lock(mutex_);
@@ -124,6 +129,7 @@ class FrameBatch {
     return false;
   }
 
+  const std::atomic<int>& stop_;
   const ImageFrames& images_;
   const std::vector<uint64_t>& numbers_;
   const RunOptions& options_;
@@ -141,8 +147,9 @@ class FrameBatch {
 
 bool run_frame_batch(const ImageFrames& images, const std::vector<uint64_t>& numbers,
                      const RunOptions& options, const std::string& pictures_path, uint32_t jobs,
-                     const std::function<bool(const FrameStatistics&)>& deliver, std::string& error) {
-  return FrameBatch(images, numbers, options, pictures_path, std::max(1u, jobs))
+                     const std::atomic<int>& stop, const std::function<bool(const FrameStatistics&)>& deliver,
+                     std::string& error) {
+  return FrameBatch(images, numbers, options, pictures_path, std::max(1u, jobs), stop)
       .run(std::max(1u, jobs), deliver, error);
 }
 

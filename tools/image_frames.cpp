@@ -15,6 +15,7 @@
 #include "images/image_library.h"
 #include "images/plain_png.h"
 #include "quiet_standard_error.h"
+#include "streams/ending_signals.h"
 
 namespace tilepress {
 
@@ -101,12 +102,12 @@ void spread_channels(std::vector<std::byte>& pixels, size_t count, uint32_t chan
   }
 }
 
-/// Reads until `size` bytes or the end; the bytes read, or -1.
+/// Reads until `size` bytes or the end; the bytes read, or -1. Gives up once a signal asks the verb to end.
 ssize_t read_fully(int fd, std::byte* to, size_t size) {
   size_t done = 0;
   while (done < size) {
     const ssize_t got = ::read(fd, to + done, size - done);
-    if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && errno == EINTR && noted_signal() == 0) continue;
     if (got < 0) return -1;
     if (got == 0) break;
     done += static_cast<size_t>(got);
@@ -201,6 +202,7 @@ bool ImageFrames::open(const std::vector<std::string>& paths, std::optional<Fram
                        std::string& error) {
   if (raw_size) size_ = *raw_size;
   for (const std::string& path : paths) {
+    if (noted_signal() != 0) return false;
     if (path == "-") {
       if (paths.size() > 1) error = "-: standard input cannot be mixed with files";
       if (!raw_size) error = "-: raw frames on standard input need --size WxH";

@@ -3,10 +3,10 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <vector>
 
 #include "images/image_library.h"
+#include "streams/output_file.h"
 
 namespace tilepress {
 namespace {
@@ -35,7 +35,7 @@ const char* raw_extension(PixelFormat format) {
 }
 
 bool write_png(const std::string& path, std::span<const uint32_t> words, uint32_t width, uint32_t height,
-               PixelFormat format, std::string& error) {
+               PixelFormat format, bool replace, std::string& error) {
   const FormatTraits& bits = traits(format);
   const bool alpha = format == PixelFormat::kRgba8 || format == PixelFormat::kRgb10a2;
   const uint32_t depth = format == PixelFormat::kRgb10a2 ? 16 : 8;
@@ -55,17 +55,11 @@ bool write_png(const std::string& path, std::span<const uint32_t> words, uint32_
   PngPixels pixels{.width = width, .height = height, .channels = channels, .channel_bits = depth};
   pixels.samples = depth == 16 ? static_cast<const void*>(samples.data()) : bytes.data();
   std::string reason;
-  if (library->write_png(path, pixels, reason)) return true;
+  PendingFile pending;
+  if (!pending.begin(path, replace, error)) return false;
+  if (library->write_png(pending.path(), pixels, reason)) return pending.commit(error);
   error = path + ": " + (reason.empty() ? std::strerror(errno) : reason);
   return false;
-}
-
-bool write_bytes(const std::string& path, const std::string& bytes, std::string& error) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) error = path + ": " + std::strerror(errno);
-  return static_cast<bool>(file);
 }
 
 }  // namespace tilepress

@@ -16,11 +16,9 @@ std::string native_bytes(std::span<const uint32_t> words, PixelFormat format);
 const char* raw_extension(PixelFormat format);
 
 /// Writes a PNG, alpha as it is (unassociated). 8 bits a channel; RGB565 widened to 8, RGB10A2 to 16, each by
-/// repeating its high bits, so that the words can be told from it. False and one line in `error`.
+/// repeating its high bits, so that the words can be told from it. An existing file is replaced only with
+/// `replace`. False and one line in `error`.
 bool write_png(const std::string& path, std::span<const uint32_t> words, uint32_t width, uint32_t height,
-               PixelFormat format, std::string& error);
-
-/// Writes bytes as they are. False and one line in `error`.
-bool write_bytes(const std::string& path, const std::string& bytes, std::string& error);
+               PixelFormat format, bool replace, std::string& error);
 
 }  // namespace tilepress

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "command_line.h"
+#include "streams/standard_streams.h"
 #include "tilepress/simd.h"
 #include "verb.h"
 
@@ -14,10 +15,11 @@ namespace tilepress {
 namespace {
 
 constexpr Verb kVerbs[] = {
-    {"run", "run a program and capture every frame it presents", verb_run},
-    {"frames", "take frames from images or raw files", verb_frames},
-    {"replay", "replay recorded traces without a display and capture their frames", verb_replay},
-    {"record", "record a program into a trace", verb_record},
+    {"run", "run a program and capture every frame it presents", verb_run, OnSignal::kVerbsOwn},
+    {"frames", "take frames from images or raw files", verb_frames, OnSignal::kEndInOrder},
+    {"replay", "replay recorded traces without a display and capture their frames", verb_replay,
+     OnSignal::kEndInOrder},
+    {"record", "record a program into a trace", verb_record, OnSignal::kVerbsOwn},
     {"info", "tell what recorded traces hold", verb_info},
     {"bench", "time each scheme beside memcpy and LZ4", verb_bench},
     {"report", "make a page for people from one run or many", verb_report},
@@ -26,8 +28,8 @@ constexpr Verb kVerbs[] = {
     {"unpack", "restore the images of a packed file, or read a part and count bursts", verb_unpack},
     {"compose", "account the reads of several packed surfaces shown at once", verb_compose},
     {"cost", "storage, area, speed and energy of the structures", verb_cost},
-    {"top", "watch running captures", verb_top},
-    {"view", "show the last frame of a running capture in a window", verb_view},
+    {"top", "watch running captures", verb_top, OnSignal::kVerbsOwn},
+    {"view", "show the last frame of a running capture in a window", verb_view, OnSignal::kVerbsOwn},
     {"export", "a run as gem5 statistics or JSON lines", verb_export},
     {"schemes", "list the schemes and their options", verb_schemes},
     {"doctor", "tell what this machine offers and what is missing", verb_doctor},
@@ -98,17 +100,31 @@ int dispatch(int argc, char** argv) {
     const char* kind = word.starts_with("-") ? "unknown option '" : "unknown verb '";
     return fail(kExitUsage, kind + word + "' (see tilepress help)");
   }
+  choose_on_signal(verb->on_signal);
   return verb->run(argc - 1, argv + 1);
+}
+
+/// Nothing is thrown on purpose past a verb; what a library throws still ends in one line.
+int run_command(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const std::exception& error) {
+    return fail(kExitFailed, error.what());
+  }
+}
+
+/// The exit status, once standard output has taken all that the verb printed.
+int end_with(int status) {
+  std::string error;
+  if (flush_standard_output(error) || noted_signal() != 0) return status;
+  if (!error.empty()) fail(kExitFailed, error);
+  return kExitFailed;
 }
 
 }  // namespace
 }  // namespace tilepress
 
 int main(int argc, char** argv) {
-  // Nothing is thrown on purpose past a verb; what a library throws still ends in one line.
-  try {
-    return tilepress::dispatch(argc, argv);
-  } catch (const std::exception& error) {
-    return tilepress::fail(tilepress::kExitFailed, error.what());
-  }
+  tilepress::guard_standard_streams();
+  return tilepress::end_with(tilepress::run_command(argc, argv));
 }

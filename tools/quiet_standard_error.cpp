@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <mutex>
 
 namespace tilepress {
@@ -11,7 +12,7 @@ namespace {
 
 std::mutex guard;
 int holders = 0;
-int kept = -1;  ///< a second descriptor of the true standard error, made once
+std::atomic<int> kept = -1;  ///< a second descriptor of the true standard error, made once
 
 }  // namespace
 
@@ -30,8 +31,8 @@ QuietStandardError::~QuietStandardError() {
 }
 
 int true_standard_error() {
-  const std::lock_guard lock(guard);
-  return kept >= 0 ? kept : STDERR_FILENO;
+  const int fd = kept;
+  return fd >= 0 ? fd : STDERR_FILENO;
 }
 
 }  // namespace tilepress

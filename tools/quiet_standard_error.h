@@ -12,7 +12,7 @@ class QuietStandardError {
   QuietStandardError& operator=(const QuietStandardError&) = delete;
 };
 
-/// The descriptor that leads to the true standard error, quiet or not.
+/// The descriptor that leads to the true standard error, quiet or not. Async-signal-safe.
 int true_standard_error();
 
 }  // namespace tilepress

@@ -4,12 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include "printable.h"
+#include "streams/output_file.h"
 #include "tilepress/statistics.h"
 
 namespace tilepress {
@@ -23,6 +20,8 @@ const char* status_text(ReplayStatus status) {
       return "kept";
     case ReplayStatus::kFailed:
       return "failed";
+    case ReplayStatus::kInterrupted:
+      return "interrupted";
     case ReplayStatus::kNothingCaptured:
       return "nothing captured";
     case ReplayStatus::kWaiting:
@@ -67,18 +66,6 @@ std::string rate_text(const RunRecord& run, const std::string& scheme) {
   const auto found = std::find(run.scheme_names.begin(), run.scheme_names.end(), scheme);
   if (found == run.scheme_names.end() || run.measured_frames == 0) return "-";
   return fmt::format("{:.4f}", run.totals[static_cast<size_t>(found - run.scheme_names.begin())].rate());
-}
-
-bool write_file(const std::string& path, const std::string& text, std::string& error) {
-  const std::string beside = path + ".tmp";
-  std::ofstream file(beside, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code code;
-  if (file) std::filesystem::rename(beside, path, code);
-  if (file && !code) return true;
-  error = path + ": " + (code ? code.message() : std::strerror(errno));
-  return false;
 }
 
 std::string trace_rows(const TraceReplay& replay) {
@@ -141,8 +128,8 @@ bool write_replay_csv(const std::string& folder, const std::vector<std::unique_p
   for (const CategoryMean& mean : category_means(replays))
     categories += fmt::format("{},{},{},{},{}\n", category_label(mean.category), csv_field(mean.scheme),
                               mean.traces, csv_number(mean.rate_payload), csv_number(mean.rate));
-  return write_file(folder + "/replay.csv", traces, error) &&
-         write_file(folder + "/categories.csv", categories, error);
+  return write_whole_file(folder + "/replay.csv", traces, true, error) &&
+         write_whole_file(folder + "/categories.csv", categories, true, error);
 }
 
 }  // namespace tilepress

@@ -1,6 +1,8 @@
 // Verb: one sub-command of tilepress, and the functions behind all of them.
 #pragma once
 
+#include "streams/ending_signals.h"
+
 namespace tilepress {
 
 /// One line of the command's table. `run` gets argv with the verb's name at [0] and returns the exit status.
@@ -8,6 +10,7 @@ struct Verb {
   const char* name;
   const char* synopsis;  ///< one line for `tilepress help`
   int (*run)(int argc, char** argv);
+  OnSignal on_signal = OnSignal::kEndAtOnce;
 };
 
 int verb_bench(int argc, char** argv);

@@ -6,6 +6,7 @@
 #include "command_line.h"
 #include "common_options.h"
 #include "image_frames.h"
+#include "streams/output_file.h"
 #include "tilepress/simd.h"
 #include "tilepress/statistics.h"
 #include "verb.h"
@@ -87,13 +88,6 @@ void append_csv(const std::string& set, const std::vector<BenchRow>& rows, std::
            csv_number(row.ratio_to_lz4) + ',' + csv_number(row.cycles_per_pixel) + '\n';
 }
 
-bool write_csv(const std::string& path, const std::string& csv) {
-  FILE* file = path == "-" ? stdout : std::fopen(path.c_str(), "w");
-  if (file == nullptr) return false;
-  const bool written = std::fwrite(csv.data(), 1, csv.size(), file) == csv.size();
-  return (file == stdout ? std::fflush(file) : std::fclose(file)) == 0 && written;
-}
-
 std::optional<int> parse(int argc, char** argv, BenchOptions& options) {
   CLI::App app(
       "Times each scheme beside memcpy and LZ4. A table goes to standard error; -o FILE.csv keeps it.");
@@ -127,10 +121,12 @@ std::optional<int> parse(int argc, char** argv, BenchOptions& options) {
 int verb_bench(int argc, char** argv) {
   BenchOptions options;
   if (const auto status = parse(argc, argv, options)) return *status;
+  std::string error;
+  OutputFile file;  // opened first: a path that cannot be written is told before the work
+  if (!options.csv_path.empty() && !file.open(options.csv_path, true, error)) return fail(kExitFailed, error);
   std::string csv = "set,scheme,operation,mpixels_per_s,ratio_to_memcpy,ratio_to_lz4,cycles_per_pixel\n";
   for (const ImageSet& set : split_sets(options.images)) {
     BenchFrames frames;
-    std::string error;
     if (!load_set(set, options, frames, error)) return fail(kExitFailed, error);
     if (frames.pixels.empty())
       return fail(kExitNothingCaptured, set.name + ": no frame left by --frames and --every");
@@ -139,9 +135,9 @@ int verb_bench(int argc, char** argv) {
     print_table(set.name, frames, rows);
     append_csv(set.name, rows, csv);
   }
-  if (!options.csv_path.empty() && !write_csv(options.csv_path, csv))
-    return fail(kExitFailed, options.csv_path + ": cannot be written");
-  return kExitDone;
+  if (!file.is_open()) return kExitDone;
+  file.write(csv);
+  return file.commit(error) ? kExitDone : fail(kExitFailed, error);
 }
 
 }  // namespace tilepress

@@ -13,6 +13,7 @@
 #include "image_frames.h"
 #include "packed_file.h"
 #include "read_options.h"
+#include "streams/output_file.h"
 #include "tilepress/run_options.h"
 #include "tilepress/statistics.h"
 #include "verb.h"
@@ -150,15 +151,11 @@ int compose(ComposeOptions& options) {
   uint64_t count = 0;
   for (const auto& source : sources) count = std::max<uint64_t>(count, source->packed.count());
 
-  std::FILE* out = nullptr;
-  if (options.output == "-") out = stdout;
-  if (!options.output.empty() && out == nullptr) {
-    out = std::fopen(options.output.c_str(), options.force ? "w" : "wx");
-    if (out == nullptr)
-      return fail(kExitFailed, options.output + ": " +
-                                   (errno == EEXIST ? "exists (--force replaces it)" : std::strerror(errno)));
+  OutputFile out;
+  if (!options.output.empty()) {
+    if (!out.open(options.output, options.force, error)) return fail(kExitFailed, error);
+    out.write(kHeader);
   }
-  if (out != nullptr) std::fputs(kHeader, out);
 
   std::vector<ReadTotals> totals(layers.size());
   std::vector<LayerTraffic> reads;
@@ -191,20 +188,16 @@ int compose(ComposeOptions& options) {
     }
     ++taken;
     if (!read_composition(layers, options.composition, reads, error)) return fail(kExitFailed, error);
-    for (size_t i = 0; i < layers.size() && out != nullptr; ++i)
-      std::fputs(row(frame, i, *sources[i], layers[i], reads[i]).c_str(), out);
+    for (size_t i = 0; i < layers.size() && out.is_open(); ++i)
+      out.write(row(frame, i, *sources[i], layers[i], reads[i]));
     // Frame 0 stays out of the sums: DCP stores it raw. Where there is nothing else, it is shown.
     if (frame == 0 && count > 1 && options.frames.last() != 0u) continue;
     ++measured;
     for (size_t i = 0; i < layers.size(); ++i) totals[i].add(reads[i], layers[i].surface.burst_bits);
   }
-  if (out != nullptr) {
-    const bool written = std::fflush(out) == 0 && std::ferror(out) == 0;
-    if (out != stdout) std::fclose(out);
-    if (!written) return fail(kExitFailed, options.output + ": " + std::strerror(errno));
-  }
   if (taken == 0)
     return fail(kExitNothingCaptured, "--frames selects none of the frames 0.." + std::to_string(count - 1));
+  if (out.is_open() && !out.commit(error)) return fail(kExitFailed, error);
   if (!options.quiet && measured > 0) print_table(options, sources, totals, measured, measured < taken);
   return kExitDone;
 }

@@ -168,12 +168,15 @@ int verb_doctor(int argc, char** argv) {
                       {"detail", finding.detail},
                       {"package", finding.package}});
     else
-      fmt::print("{:<8} {:<12} {}\n", finding.found ? "found" : "missing", finding.what, finding.detail);
+      std::fputs(
+          fmt::format("{:<8} {:<12} {}\n", finding.found ? "found" : "missing", finding.what, finding.detail)
+              .c_str(),
+          stdout);
   }
   if (json)
-    fmt::print("{}\n", list.dump(2));
+    std::printf("%s\n", list.dump(2).c_str());
   else if (!packages.empty())
-    fmt::print("\nTo get what is missing: apt-get install{}\n", packages);
+    std::printf("\nTo get what is missing: apt-get install%s\n", packages.c_str());
   return capable ? kExitDone : kExitFailed;
 }
 

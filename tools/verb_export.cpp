@@ -1,7 +1,4 @@
 // tilepress export: runs in the formats of other tools.
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -9,6 +6,7 @@
 #include "export/gem5_stats.h"
 #include "export/row_lines.h"
 #include "report/run_batch.h"
+#include "streams/output_file.h"
 #include "verb.h"
 
 namespace tilepress {
@@ -20,12 +18,11 @@ struct ExportOptions {
   bool per_frame = false;
 };
 
-bool export_run(const BatchEntry& entry, const ExportOptions& options, FILE* out, std::string& error) {
+bool export_run(const BatchEntry& entry, const ExportOptions& options, OutputFile& out, std::string& error) {
   if (options.format == "jsonl") return write_row_lines(entry.path, entry.name, out, error);
   RunRecord run;
   if (!read_run(entry.path, run, error)) return false;
-  const std::string text = gem5_stats(run, gem5_name(entry.name), options.per_frame);
-  std::fwrite(text.data(), 1, text.size(), out);
+  out.write(gem5_stats(run, gem5_name(entry.name), options.per_frame));
   return true;
 }
 
@@ -49,17 +46,11 @@ int verb_export(int argc, char** argv) {
   std::string error;
   const std::vector<BatchEntry> entries = find_runs(options.runs, error);
   if (entries.empty()) return fail(kExitFailed, error);
-  const bool to_stdout = options.output == "-";
-  FILE* out = to_stdout ? stdout : std::fopen(options.output.c_str(), "wb");
-  if (out == nullptr) return fail(kExitFailed, options.output + ": " + std::strerror(errno));
-  bool good = true;
-  for (const BatchEntry& entry : entries) good = good && export_run(entry, options, out, error);
-  if (good && (std::fflush(out) != 0 || std::ferror(out) != 0)) {
-    good = false;
-    error = (to_stdout ? std::string("standard output") : options.output) + ": " + std::strerror(errno);
-  }
-  if (!to_stdout) std::fclose(out);
-  return good ? kExitDone : fail(kExitFailed, error);
+  OutputFile out;
+  if (!out.open(options.output, true, error)) return fail(kExitFailed, error);
+  for (const BatchEntry& entry : entries)
+    if (!export_run(entry, options, out, error)) return fail(kExitFailed, error);
+  return out.commit(error) ? kExitDone : fail(kExitFailed, error);
 }
 
 }  // namespace tilepress

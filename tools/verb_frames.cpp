@@ -1,10 +1,8 @@
 // tilepress frames: a sequence of images through the schemes.
 #include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 
 #include "cdf_file.h"
@@ -14,6 +12,7 @@
 #include "frame_batch.h"
 #include "image_frames.h"
 #include "progress_line.h"
+#include "streams/standard_streams.h"
 #include "summary_table.h"
 #include "tilepress/frame_pictures.h"
 #include "tilepress/run_directory.h"
@@ -67,18 +66,19 @@ class RowSink {
     if (!writer_.append(frame)) error = writer_.error();
     return error.empty();
   }
-  void finish(const RunCounts& counts, const std::string& state, const std::string& reason) {
-    if (!writer_.is_open()) return;
+  bool finish(const RunCounts& counts, const std::string& state, const std::string& reason,
+              std::string& error) {
+    if (!writer_.is_open()) return true;
     writer_.set_counts(counts);
-    writer_.finish(state, reason);
+    if (writer_.finish(state, reason)) return true;
+    if (error.empty()) error = writer_.error();
+    return false;
   }
 
  private:
   bool print(const std::string& text, std::string& error) {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
-      return true;
-    error = std::string("standard output: ") + std::strerror(errno);
-    return false;
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return flush_standard_output(error);
   }
   RunWriter writer_;
   std::vector<std::string> names_;
@@ -139,7 +139,7 @@ bool process_stream(ImageFrames& images, const FramesOptions& options, RowSink& 
       return false;
     }
     if (options.wants_cdf(number) && !cdf.append(statistics, view, error)) return false;
-    if (!take(statistics, sink, record, error)) return false;
+    if (!take(statistics, sink, record, error) || noted_signal() != 0) return false;
     progress.show(number + 1, {});
   }
   return true;
@@ -169,10 +169,33 @@ bool process_frames(ImageFrames& images, const FramesOptions& options, RowSink& 
          !cdf.append(statistics, view_of(cdf_images, cdf_frame), error)))
       return false;
     progress.show(record.counts.captured, numbers.size());
-    return true;
+    return noted_signal() == 0 || record.counts.captured == numbers.size();
   };
   return run_frame_batch(images, numbers, options.run, options.to_stdout() ? "" : options.run.output,
-                         options.jobs, deliver, error);
+                         options.jobs, noted_signal(), deliver, error);
+}
+
+/// Removes dumped frames that have no rows: threads write them before the rows of earlier frames.
+void remove_raw_frames(const std::string& run_path) {
+  std::error_code code;
+  for (const auto& entry : std::filesystem::directory_iterator(run_path + "/frames", code))
+    if (entry.path().extension() == ".rgba") std::filesystem::remove(entry.path(), code);
+}
+
+/// Closes the run of a verb that a signal ended: the rows of each frame are whole.
+int end_on_signal(int signal, const ImageFrames& images, const FramesOptions& options, RowSink& sink,
+                  const RunRecord& record) {
+  std::string reason = std::to_string(record.counts.captured);
+  if (!images.streamed()) reason += " of " + std::to_string(*images.count() - record.counts.skipped);
+  reason += record.counts.captured == 1 && images.streamed() ? " frame captured" : " frames captured";
+  std::string error;
+  bool good = sink.finish(record.counts, state_after(signal), reason, error);
+  if (good && !options.to_stdout()) {
+    good = convert_dumped_frames(options.run.output, error);
+    remove_raw_frames(options.run.output);
+  }
+  if (!good) fail(kExitFailed, error);
+  return fail(128 + signal, signal_text(signal) + ": " + reason);
 }
 
 int parse(int argc, char** argv, FramesOptions& options, std::optional<int>& status) {
@@ -214,8 +237,9 @@ int verb_frames(int argc, char** argv) {
 
   std::string error;
   ImageFrames images;
-  if (!images.open(options.images, options.size, error))
-    return fail(error.ends_with("--size WxH") ? kExitUsage : kExitFailed, error);
+  const bool opened = images.open(options.images, options.size, error);
+  if (const int signal = noted_signal(); signal != 0) return fail(128 + signal, signal_text(signal));
+  if (!opened) return fail(error.ends_with("--size WxH") ? kExitUsage : kExitFailed, error);
   if (const auto count = images.count()) {
     uint64_t wanted = 0;
     for (uint64_t number = 0; number < *count && wanted == 0; ++number) wanted += options.run.takes(number);
@@ -237,11 +261,13 @@ int verb_frames(int argc, char** argv) {
   if (!sink.open(options, info, error)) return fail(kExitFailed, error);
   RunRecord record;
   bool good = process_frames(images, options, sink, cdf, record, error);
+  if (const int signal = noted_signal(); !good && signal != 0)
+    return end_on_signal(signal, images, options, sink, record);
   if (good && !record.reason.empty()) {
     error = record.reason;
     good = false;
   }
-  sink.finish(record.counts, good ? "finished" : "failed", error);
+  good = sink.finish(record.counts, good ? "finished" : "failed", error, error) && good;
   if (good && !options.to_stdout()) good = convert_dumped_frames(options.run.output, error);
   if (!options.quiet && record.counts.captured > 0) {
     std::string title = "frames";

@@ -9,6 +9,7 @@
 #include "common_options.h"
 #include "image_frames.h"
 #include "packed_file.h"
+#include "streams/output_file.h"
 #include "tilepress/run_options.h"
 #include "tilepress/scheme.h"
 #include "verb.h"
@@ -135,12 +136,10 @@ void print_summary(const PackOptions& options, const PackSource& source, const P
 int pack(const PackOptions& options) {
   std::string error;
   PackSource source;
-  if (!options.force && std::filesystem::exists(options.output))
-    return fail(kExitFailed, options.output + ": exists (--force replaces it)");
+  PendingFile pending;
+  if (!pending.begin(options.output, options.force, error)) return fail(kExitFailed, error);
   if (!source.open(options, error)) return fail(kExitFailed, error);
-  // Under another name until it is whole: a file that stops half-way never looks like a result.
-  const std::string beside = options.output + ".part";
-  std::ofstream file(beside, std::ios::binary | std::ios::trunc);
+  std::ofstream file(pending.path(), std::ios::binary | std::ios::trunc);
   if (!file) return fail(kExitFailed, options.output + ": " + std::strerror(errno));
   PackedFileWriter writer(file);
   PackTotals totals;
@@ -154,15 +153,13 @@ int pack(const PackOptions& options) {
     packed = false;
   }
   file.close();
-  if (packed && std::rename(beside.c_str(), options.output.c_str()) != 0) {
+  if (packed && !file) {
     error = options.output + ": " + std::strerror(errno);
     packed = false;
   }
-  if (!packed) {
-    std::remove(beside.c_str());
+  if (!packed || !pending.commit(error))
     return fail(totals.frames == 0 && error == "no frame to pack" ? kExitNothingCaptured : kExitFailed,
                 error);
-  }
   if (!options.quiet) print_summary(options, source, totals);
   return kExitDone;
 }

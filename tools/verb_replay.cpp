@@ -1,6 +1,5 @@
 // tilepress replay: recorded traces through a headless retracer under the shim.
-#include <signal.h>
-
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -14,6 +13,7 @@
 #include "replay_tables.h"
 #include "session_folder.h"
 #include "shim_path.h"
+#include "streams/ending_signals.h"
 #include "tilepress/replay_batch.h"
 #include "trace_manifest.h"
 #include "verb.h"
@@ -47,14 +47,6 @@ struct VerbOptions {
   unsigned jobs = 1;
   bool verbose = false, quiet = false;
 };
-
-std::atomic<bool> stop_asked{false};
-volatile sig_atomic_t stop_signal = 0;
-
-void ask_to_stop(int signal) {
-  stop_signal = signal;
-  stop_asked = true;
-}
 
 template <typename T>
 CLI::Option* add_choice(CLI::App& app, const std::string& flags, T& value,
@@ -139,32 +131,54 @@ std::optional<int> gather_inputs(const VerbOptions& options, std::vector<ReplayI
   return std::nullopt;
 }
 
-/// SIGINT, SIGTERM and SIGHUP end the replays in good order; what the caller ignores stays ignored.
-void watch_signals() {
-  struct sigaction action {};
-  action.sa_handler = ask_to_stop;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);  // the second one kills
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction old {};
-    sigaction(signal, nullptr, &old);
-    if (old.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+/// What a signal left of the batch, as a sentence; empty if every replay had come to its end before.
+std::string interruption_text(const ReplayBatch& batch) {
+  std::string done, cut, waiting;
+  const auto add = [](std::string& list, const std::string& text) {
+    list += (list.empty() ? "" : ", ") + printable(text);
+  };
+  for (const auto& replay : batch.replays()) {
+    const ReplayResult& result = replay->result();
+    const std::string& path = replay->input().path;
+    if (result.status == ReplayStatus::kWaiting)
+      add(waiting, path);
+    else if (result.status == ReplayStatus::kDone || result.status == ReplayStatus::kKept)
+      add(done, path);
+    else
+      add(cut, path + " " + result.reason);
   }
+  const bool interrupted =
+      std::any_of(batch.replays().begin(), batch.replays().end(),
+                  [](const auto& replay) { return replay->result().status == ReplayStatus::kInterrupted; });
+  if (!interrupted && waiting.empty()) return {};
+  std::string text;
+  if (!done.empty()) text += "done: " + done;
+  if (!cut.empty()) text += (text.empty() ? "" : "; ") + cut;
+  if (!waiting.empty()) text += (text.empty() ? "" : "; ") + std::string("not replayed: ") + waiting;
+  return text;
+}
+
+/// The dumped frames of every run as PNG. False, and a line for each that failed.
+bool convert_all_dumped_frames(const ReplayBatch& batch) {
+  bool good = true;
+  for (const auto& replay : batch.replays()) {
+    const std::string& path = replay->result().run.path;
+    std::string error;
+    if (path.empty() || convert_dumped_frames(path, error)) continue;
+    fail(kExitFailed, error);
+    good = false;
+  }
+  return good;
 }
 
 /// One line per failed trace, and what its retracer said last.
 int tell_failures(const ReplayBatch& batch) {
   constexpr size_t kShownLines = 5;
   uint64_t captured = 0;
-  bool failed = false, nothing = false;
+  bool failed = !convert_all_dumped_frames(batch), nothing = false;
   for (const auto& replay : batch.replays()) {
     const ReplayResult& result = replay->result();
     captured += result.frames_captured;
-    std::string error;
-    if (!result.run.path.empty() && !convert_dumped_frames(result.run.path, error)) {
-      failed = true;
-      fail(kExitFailed, error);
-    }
     if (result.status == ReplayStatus::kDone || result.status == ReplayStatus::kKept) continue;
     nothing |= result.status == ReplayStatus::kNothingCaptured;
     failed |= result.status != ReplayStatus::kNothingCaptured;
@@ -175,7 +189,6 @@ int tell_failures(const ReplayBatch& batch) {
     for (size_t i = lines.size() - std::min(lines.size(), kShownLines); i < lines.size(); ++i)
       std::fprintf(stderr, "  said: %s\n", printable(lines[i]).c_str());
   }
-  if (stop_signal != 0) return 128 + stop_signal;
   if (nothing && !failed && captured == 0) return kExitNothingCaptured;
   return failed || nothing ? kExitFailed : kExitDone;
 }
@@ -207,15 +220,22 @@ int verb_replay(int argc, char** argv) {
       std::fprintf(stderr, "tilepress: %s\n", printable(line).c_str());
     };
   }
-  watch_signals();
   ReplayBatch batch(inputs, options.replay);
-  batch.run(options.jobs, stop_asked, [&](const BatchProgress& at) {
+  batch.run(options.jobs, noted_signal(), [&](const BatchProgress& at) {
     const std::lock_guard lock(telling);
     progress.show(at.frames_done, at.frames_wanted);
   });
   progress.clear();
-  if (!options.quiet) std::fputs(replay_table(batch.replays()).c_str(), stderr);
-  int status = tell_failures(batch);
+  const int signal = noted_signal();
+  const std::string interruption = signal != 0 ? interruption_text(batch) : "";
+  int status = kExitDone;
+  if (!interruption.empty()) {
+    convert_all_dumped_frames(batch);
+    status = fail(128 + signal, signal_text(signal) + ": " + interruption);
+  } else {
+    if (!options.quiet) std::fputs(replay_table(batch.replays()).c_str(), stderr);
+    status = tell_failures(batch);
+  }
   if (fs::exists(options.replay.run.output, code) &&
       !write_replay_csv(options.replay.run.output, batch.replays(), error))
     status = fail(kExitFailed, error);

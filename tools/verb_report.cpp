@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
-#include <cstring>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,6 +10,7 @@
 #include "command_line.h"
 #include "report/report_page.h"
 #include "report/run_batch.h"
+#include "streams/output_file.h"
 #include "verb.h"
 
 namespace tilepress {
@@ -68,18 +67,6 @@ bool summarise_all(const std::vector<BatchEntry>& entries, std::vector<RunSummar
   return true;
 }
 
-bool write_page(const std::string& path, const std::string& page, std::string& error) {
-  FILE* file = path == "-" ? stdout : std::fopen(path.c_str(), "wb");
-  if (file == nullptr) {
-    error = path + ": " + std::strerror(errno);
-    return false;
-  }
-  bool good = std::fwrite(page.data(), 1, page.size(), file) == page.size();
-  good = (file == stdout ? std::fflush(file) : std::fclose(file)) == 0 && good;
-  if (!good) error = path + ": " + std::strerror(errno);
-  return good;
-}
-
 }  // namespace
 
 int verb_report(int argc, char** argv) {
@@ -118,7 +105,8 @@ int verb_report(int argc, char** argv) {
   if (title.empty())
     title = entries.size() == 1 ? "Compression report: " + entries[0].name
                                 : "Compression report: " + std::to_string(entries.size()) + " runs";
-  if (!write_page(options.output, report_page(batch, title), error)) return fail(kExitFailed, error);
+  if (!write_whole_file(options.output, report_page(batch, title), true, error))
+    return fail(kExitFailed, error);
   return kExitDone;
 }
 

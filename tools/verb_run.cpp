@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "child_process.h"
 #include "command_line.h"
@@ -18,6 +17,7 @@
 #include "program_kind.h"
 #include "session_folder.h"
 #include "shim_path.h"
+#include "streams/output_file.h"
 #include "summary_table.h"
 #include "tilepress/run_reader.h"
 #include "tilepress/shim_environment.h"
@@ -236,12 +236,12 @@ std::string free_overhead_file(const std::string& folder) {
 
 bool write_overhead(const LaunchOptions& options, const std::vector<OverheadRun>& runs) {
   const std::string path = free_overhead_file(options.run.output);
-  std::ofstream file(path);
-  file << overhead_csv(runs);
-  file.close();
-  if (!file) fail(kExitLauncherFailed, path + ": cannot be written");
-  if (!options.quiet) std::fprintf(stderr, "%s  rows: %s\n", overhead_text(runs).c_str(), path.c_str());
-  return static_cast<bool>(file);
+  std::string error;
+  const bool written = write_whole_file(path, overhead_csv(runs), false, error);
+  if (!written) fail(kExitLauncherFailed, error);
+  if (written && !options.quiet)
+    std::fprintf(stderr, "%s  rows: %s\n", overhead_text(runs).c_str(), path.c_str());
+  return written;
 }
 
 /// The program with and without capture, `rounds` times, the order changing from round to round.

@@ -10,6 +10,7 @@
 #include "image_writer.h"
 #include "packed_file.h"
 #include "read_options.h"
+#include "streams/output_file.h"
 #include "tilepress/run_options.h"
 #include "tilepress/surface_reader.h"
 #include "verb.h"
@@ -55,13 +56,9 @@ std::string part_path(const UnpackOptions& options, const Part& part, PixelForma
 
 bool write_part(const UnpackOptions& options, const Part& part, PixelFormat format, std::string& error) {
   const std::string path = part_path(options, part, format);
-  if (!options.force && std::filesystem::exists(path)) {
-    error = path + ": exists (--force replaces it)";
-    return false;
-  }
   if (options.format == "png")
-    return write_png(path, part.words, part.rect.width, part.rect.height, format, error);
-  return write_bytes(path, native_bytes(part.words, format), error);
+    return write_png(path, part.words, part.rect.width, part.rect.height, format, options.force, error);
+  return write_whole_file(path, native_bytes(part.words, format), options.force, error);
 }
 
 void report_part(const UnpackOptions& options, const Part& part, const CompressedSurface& surface) {

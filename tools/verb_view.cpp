@@ -11,6 +11,7 @@
 #include "command_line.h"
 #include "image_frames.h"
 #include "shim_path.h"
+#include "streams/standard_streams.h"
 #include "verb.h"
 #include "view/view_request.h"
 
@@ -81,6 +82,7 @@ int verb_view(int argc, char** argv) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  restore_sigpipe();
   execv(window->c_str(), arguments.data());
   return fail(kExitFailed, *window + ": " + std::strerror(errno));
 }

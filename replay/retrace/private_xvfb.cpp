@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 
 #include "program_search.h"
@@ -16,7 +17,8 @@
 namespace tilepress {
 namespace {
 
-constexpr int kStartTimeoutMs = 20000;
+constexpr std::chrono::seconds kStartTimeout{20};
+constexpr int kLookPeriodMs = 50;
 
 /// An Xauthority file with one entry for any address and display: family 65535, empty address and number,
 /// name, cookie; lengths are big-endian 16 bits.
@@ -35,12 +37,15 @@ bool write_cookie(const std::string& path) {
   return good;
 }
 
-/// The number that the server writes once it accepts connections.
-std::string read_number(int fd) {
+/// The number that the server writes once it accepts connections. Empty if it does not, or to be stopped.
+std::string read_number(int fd, const std::function<bool()>& stop) {
+  const auto limit = std::chrono::steady_clock::now() + kStartTimeout;
   std::string text;
   char c = 0;
   pollfd ready = {fd, POLLIN, 0};
-  while (text.size() < 8 && poll(&ready, 1, kStartTimeoutMs) > 0 && read(fd, &c, 1) == 1) {
+  while (text.size() < 8 && !stop() && std::chrono::steady_clock::now() < limit) {
+    if (poll(&ready, 1, kLookPeriodMs) <= 0) continue;
+    if (read(fd, &c, 1) != 1) break;
     if (c == '\n') return text;
     text += c;
   }
@@ -49,7 +54,8 @@ std::string read_number(int fd) {
 
 }  // namespace
 
-bool PrivateXvfb::start(const std::string& folder, uint32_t width, uint32_t height, std::string& error) {
+bool PrivateXvfb::start(const std::string& folder, uint32_t width, uint32_t height,
+                        const std::function<bool()>& stop, std::string& error) {
   const std::string program = find_in_path("Xvfb");
   if (program.empty()) {
     error = "Xvfb: not found (Debian package xvfb)";
@@ -67,7 +73,7 @@ bool PrivateXvfb::start(const std::string& folder, uint32_t width, uint32_t heig
                                       "-screen", "0", screen, "-nolisten", "tcp", "-noreset"},
                                      {}, error, number[1]);
   close(number[1]);
-  const std::string text = started ? read_number(number[0]) : "";
+  const std::string text = started ? read_number(number[0], stop) : "";
   close(number[0]);
   if (started && text.empty()) {
     server_.wait(std::chrono::milliseconds(100));

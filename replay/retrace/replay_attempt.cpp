@@ -90,7 +90,10 @@ AttemptOutcome run_attempt(const ReplayRoad& road, const AttemptOrder& order, co
   std::map<std::string, std::string> environment = environment_of(road, order, options, run);
   PrivateXvfb xvfb;
   if (road.display == ReplayDisplay::kXvfb) {
-    if (!xvfb.start(order.folder + "/session", order.width, order.height, outcome.error)) return outcome;
+    if (!xvfb.start(order.folder + "/session", order.width, order.height, stop, outcome.error)) {
+      outcome.interrupted = stop();
+      return outcome;
+    }
     environment["DISPLAY"] = xvfb.display();
     environment["XAUTHORITY"] = xvfb.authority();
   }

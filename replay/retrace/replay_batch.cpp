@@ -59,7 +59,7 @@ class ReadyReplays {
     changed_.notify_all();
   }
   /// Waits for it; null if there is none left, or once `stop` is true.
-  TraceReplay* next(const std::atomic<bool>& stop) {
+  TraceReplay* next(const std::atomic<int>& stop) {
     std::unique_lock lock(mutex_);
     while (next_ == replays_.size() && !closed_ && !stop) changed_.wait_for(lock, kTickPeriod);
     return next_ == replays_.size() || stop ? nullptr : replays_[next_++];
@@ -99,7 +99,7 @@ ReplayBatch::ReplayBatch(const std::vector<ReplayInput>& inputs, const ReplayOpt
   for (const ReplayInput& input : inputs) replays_.push_back(std::make_unique<TraceReplay>(input, options));
 }
 
-void ReplayBatch::run(unsigned jobs, const std::atomic<bool>& stop,
+void ReplayBatch::run(unsigned jobs, const std::atomic<int>& stop,
                       const std::function<void(const BatchProgress&)>& tick) {
   jobs = std::max(jobs, 1u);
   ReadyReplays ready;

@@ -52,6 +52,7 @@ struct TraceReplay::Attempt {
   ReplayRoad road;
   std::string folder;
   AttemptOutcome outcome;
+  int stop_signal = 0;       ///< if that interrupted it
   RunRecord run{};           ///< the largest run of the attempt, a retracer makes one
   std::string run_folder{};  ///< where it still lies; empty if there is none
 };
@@ -177,7 +178,7 @@ bool TraceReplay::keep_finished_run() {
   return true;
 }
 
-void TraceReplay::run(const std::atomic<bool>& stop) {
+void TraceReplay::run(const std::atomic<int>& stop) {
   if (!make_folder()) return;
   std::string error;
   std::vector<ReplayRoad> roads =
@@ -187,6 +188,7 @@ void TraceReplay::run(const std::atomic<bool>& stop) {
     options_.explain(input_.path + ": " + roads[i].name() + " (" + roads[i].why + ")");
     Attempt attempt{roads[i], folder, attempt_road(roads[i], folder, stop)};
     if (!read_) break;
+    if (attempt.outcome.interrupted) attempt.stop_signal = stop;
     // The first road is the same for all: which others there are, the trace tells.
     roads = replay_roads(trace_.api, options_.retracer, options_.display, error);
     find_run(attempt);
@@ -225,7 +227,7 @@ void TraceReplay::remove_folder() {
 }
 
 AttemptOutcome TraceReplay::attempt_road(const ReplayRoad& road, const std::string& folder,
-                                         const std::atomic<bool>& stop) {
+                                         const std::atomic<int>& stop) {
   AttemptOrder order;
   order.folder = folder;
   order.trace_path = absolute_path(input_.path);
@@ -268,11 +270,14 @@ void TraceReplay::settle(Attempt& attempt) {
   RunEnd end;
   end.overrules = true;
   end.state = result_.frames_captured == result_.frames_wanted ? "finished" : "failed";
+  if (result_.status == ReplayStatus::kInterrupted)
+    end.state = "killed by signal " + std::to_string(attempt.stop_signal);
   end.reason = result_.reason;
   if (attempt.outcome.stopped_early && end.reason.empty())
     end.reason = "ended after the last frame asked for";
   end.exit_status = attempt.outcome.exit_status;
   if (!attempt.outcome.stopped_early) end.signal = attempt.outcome.signal;
+  if (attempt.outcome.interrupted) end.signal = attempt.stop_signal;
   end.program = input_.name;
   end.via = "replay";
   end.further = {{"trace", fs::absolute(input_.path).string()},
@@ -333,6 +338,10 @@ void TraceReplay::judge(const Attempt& attempt) {
   result_.frames_captured = captured;
   if (run_options_.triggers != 0 && !attempt.outcome.interrupted) result_.frames_wanted = captured;
   result_.retracer_lines.clear();
+  const bool complete = captured == result_.frames_wanted && captured > 0 && run_options_.triggers == 0;
+  if (attempt.outcome.interrupted && !complete)
+    return fail("stopped after " + std::to_string(captured) + " of " + plural(result_.frames_wanted, "frame"),
+                ReplayStatus::kInterrupted);
   if (!attempt.outcome.error.empty()) return fail(attempt.outcome.error);
   const std::string of = " of " + plural(result_.frames_wanted, "frame");
   uint64_t mismatched_blocks = 0;
@@ -343,7 +352,7 @@ void TraceReplay::judge(const Attempt& attempt) {
   const bool all_accounted = result_.frames_wanted != trace_.frames && run.counts.seen == trace_.frames &&
                              captured + run.counts.skipped == trace_.frames && captured > 0;
   if (all_accounted) result_.frames_wanted = captured;
-  if (captured == result_.frames_wanted && captured > 0 && !attempt.outcome.interrupted) {
+  if (captured == result_.frames_wanted && captured > 0) {
     if (mismatched_blocks > 0)
       return fail("--verify: " + plural(mismatched_blocks, "block") + " differ after decoding");
     if (trace_.state == TraceState::kTruncated)

@@ -20,6 +20,7 @@ namespace tilepress {
 namespace {
 
 constexpr int kExecFailed = 127;
+constexpr std::chrono::seconds kGrace{1};
 
 /// "NAME=value" strings of our environment with `changes` applied, and pointers to them for execve.
 struct Environment {
@@ -177,9 +178,9 @@ void WatchedProcess::send(int signal) {
 void WatchedProcess::end() {
   if (!running()) return;
   send(SIGTERM);
-  if (wait(std::chrono::seconds(1))) return;
-  send(SIGKILL);
-  reap(0);
+  const bool ended = wait(kGrace);
+  kill(-pid_, SIGKILL);  // also what the process left of its group
+  if (!ended) reap(0);
 }
 
 }  // namespace tilepress

@@ -45,7 +45,7 @@ bool is_json_number(const std::string& text) {
   return i == text.size();
 }
 
-bool write_rows(const std::string& file, const std::string& start, FILE* out, std::string& error) {
+bool write_rows(const std::string& file, const std::string& start, OutputFile& out, std::string& error) {
   std::string text;
   if (!read_text(file, text, error)) return false;
   CsvReader reader(text);
@@ -61,14 +61,14 @@ bool write_rows(const std::string& file, const std::string& start, FILE* out, st
                                         : json_text(fields[i]);
     }
     line += "}\n";
-    std::fwrite(line.data(), 1, line.size(), out);
+    out.write(line);
   }
   return true;
 }
 
 }  // namespace
 
-bool write_row_lines(const std::string& path, const std::string& name, FILE* out, std::string& error) {
+bool write_row_lines(const std::string& path, const std::string& name, OutputFile& out, std::string& error) {
   const std::string run = ",\"run\":" + json_text(name);
   std::string text, missing;
   // A run without run.json, or with one cut off by a crash, still has its rows.
@@ -77,8 +77,7 @@ bool write_row_lines(const std::string& path, const std::string& name, FILE* out
     if (json.is_object()) {
       nlohmann::ordered_json line = {{"type", "run"}, {"run", name}};
       for (const auto& [key, value] : json.items()) line[key] = value;
-      const std::string dumped = line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-      std::fwrite(dumped.data(), 1, dumped.size(), out);
+      out.write(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     }
   }
   return write_rows(path + "/frames.csv", "{\"type\":\"frame\"" + run, out, error) &&

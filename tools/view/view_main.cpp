@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "streams/output_file.h"
+#include "streams/standard_streams.h"
 #include "view/view_panel.h"
 #include "view/view_request.h"
 
@@ -277,8 +279,15 @@ void ViewWindow::set_title() {
 
 int ViewWindow::write_screenshot() {
   const ScreenImage image = read_window(width_, height_);
-  if (stbi_write_png(request_.screenshot.c_str(), width_, height_, 3, image.bytes.data(), width_ * 3) == 0)
-    return fail(1, request_.screenshot + ": cannot be written");
+  OutputFile file;
+  std::string error;
+  const auto append = [](void* to, void* bytes, int size) {
+    static_cast<OutputFile*>(to)->write({static_cast<const char*>(bytes), static_cast<size_t>(size)});
+  };
+  if (!file.open(request_.screenshot, true, error)) return fail(1, error);
+  if (stbi_write_png_to_func(append, &file, width_, height_, 3, image.bytes.data(), width_ * 3) == 0)
+    return fail(1, request_.screenshot + ": cannot be encoded");
+  if (!file.commit(error)) return fail(1, error);
   const LiveState& state = watch_.picture().head.state;
   std::fprintf(stderr, "%s: frame %llu of surface %llu\n", request_.screenshot.c_str(),
                static_cast<unsigned long long>(state.frame), static_cast<unsigned long long>(state.surface));
@@ -339,5 +348,6 @@ int view(int argc, char** argv) {
 }  // namespace tilepress
 
 int main(int argc, char** argv) {
+  tilepress::guard_standard_streams();
   return tilepress::view(argc, argv);
 }

@@ -26,9 +26,9 @@ class ReplayBatch {
   ReplayBatch(const std::vector<ReplayInput>& inputs, const ReplayOptions& options);
   /// Reads all traces, and replays those that can be, `jobs` at a time, as soon as they are read; the first
   /// need not even wait for that. A trace that fails does not stop the others. `tick` is called ten times a
-  /// second or so, from this thread. Returns early, with the replays at work ended and failed, once `stop` is
-  /// true.
-  void run(unsigned jobs, const std::atomic<bool>& stop,
+  /// second or so, from this thread. Returns early, with the replays at work interrupted, once `stop` is not
+  /// 0: the number of the signal that ends us.
+  void run(unsigned jobs, const std::atomic<int>& stop,
            const std::function<void(const BatchProgress&)>& tick);
   /// In the order of the inputs.
   const std::vector<std::unique_ptr<TraceReplay>>& replays() const { return replays_; }

@@ -45,6 +45,7 @@ enum class ReplayStatus : uint8_t {
   kDone,             ///< every frame asked for was captured
   kKept,             ///< --resume: it had been done before
   kFailed,           ///< not replayed, or not all frames were captured
+  kInterrupted,      ///< a signal ended it before all frames were captured
   kNothingCaptured,  ///< a readable trace of which not one frame was captured
 };
 
@@ -75,8 +76,9 @@ class TraceReplay {
 
   /// Finds what can be found before. False if there is nothing to run; result() then says why.
   bool prepare(TraceReading reading);
-  /// Replays. Ends early, as failed, once `stop` is true, or once the trace turns out not to be replayable.
-  void run(const std::atomic<bool>& stop);
+  /// Replays. Ends early, as interrupted, once `stop` is not 0, the number of the signal that ends us. Ends
+  /// early, as failed, once the trace turns out not to be replayable.
+  void run(const std::atomic<int>& stop);
 
   const ReplayInput& input() const { return input_; }
   /// After prepare() returned false, or after run().
@@ -97,7 +99,7 @@ class TraceReplay {
   std::string fingerprint() const;
   /// Reads the trace meanwhile, unless it is read.
   AttemptOutcome attempt_road(const ReplayRoad& road, const std::string& folder,
-                              const std::atomic<bool>& stop);
+                              const std::atomic<int>& stop);
   void find_run(Attempt& attempt);
   void judge(const Attempt& attempt);
   void settle(Attempt& attempt);

@@ -1,0 +1,69 @@
+// Standard streams: stdio's standard output over a write function of our own, which keeps the first error.
+#include "streams/standard_streams.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace tilepress {
+namespace {
+
+int first_error = 0;  ///< errno of the first write that failed
+bool told = false;
+struct sigaction callers_sigpipe;
+
+/// stdio forgets why a write failed before the last one. Returns fewer than `count` bytes on failure.
+ssize_t write_noting_errors(void*, const char* bytes, size_t count) {
+  size_t done = 0;
+  while (done < count && first_error == 0) {
+    const ssize_t written = write(STDOUT_FILENO, bytes + done, count - done);
+    if (written > 0) {
+      done += static_cast<size_t>(written);
+    } else if (written < 0 && errno == EAGAIN) {  // the caller's pipe does not block
+      pollfd ready = {STDOUT_FILENO, POLLOUT, 0};
+      poll(&ready, 1, -1);
+    } else if (written == 0 || errno != EINTR) {
+      first_error = written == 0 ? ENOSPC : errno;
+    }
+  }
+  return static_cast<ssize_t>(done);
+}
+
+/// Opens a closed standard stream in the direction that nobody uses: reads and writes fail as before.
+void occupy(int stream) {
+  if (fcntl(stream, F_GETFD) >= 0) return;
+  const int flags = (stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) | O_CLOEXEC;
+  if (open("/dev/null", flags) < 0) return;  // the lowest free number is `stream`
+}
+
+}  // namespace
+
+void guard_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) occupy(stream);
+  struct sigaction ignore {};
+  ignore.sa_handler = SIG_IGN;
+  sigaction(SIGPIPE, &ignore, &callers_sigpipe);
+  std::FILE* noting = fopencookie(nullptr, "w", {nullptr, write_noting_errors, nullptr, nullptr});
+  if (noting == nullptr) return;
+  std::setvbuf(noting, nullptr, isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF, BUFSIZ);
+  stdout = noting;
+}
+
+void restore_sigpipe() {
+  sigaction(SIGPIPE, &callers_sigpipe, nullptr);
+}
+
+bool flush_standard_output(std::string& error) {
+  error.clear();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  if (!told) error = std::string("standard output: ") + std::strerror(first_error != 0 ? first_error : errno);
+  told = true;
+  return false;
+}
+
+}  // namespace tilepress
