@@ -275,26 +275,88 @@ class Failures(ReplayCase):
 
 
 class Interruptions(ReplayCase):
-    def test_end_the_retracer_and_leave_the_frames_so_far(self):
-        environment = {**os.environ, **NO_DISPLAY}
-        process = subprocess.Popen([COMMAND, "replay", "-q", "-o", "out", EGL], cwd=self.folder, env=environment,
-                                   stderr=subprocess.PIPE)
-        rows = self.path("out/glmark2-desktop-egl.partial/0/runs/*/frames.csv")
-        deadline = time.monotonic() + 100
-        while time.monotonic() < deadline and not any(len(read_rows(path)) > 2 for path in glob.glob(rows)):
-            time.sleep(0.02)
-        process.send_signal(signal.SIGINT)
-        _, text = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 128 + signal.SIGINT, text)
-        run = read_json(self.run_of(EGL) + "/run.json")
-        self.assertEqual((run["state"], run["via"]), ("failed", "replay"))
-        self.assertIn("interrupted", run["reason"])
-        self.assertGreater(len(read_rows(self.run_of(EGL) + "/frames.csv")), 2)
-        self.assert_absent("out/glmark2-desktop-egl.partial")
+    def start(self, *words, env=None):
+        """In a session of its own, so that a signal to its group is a terminal's ^C."""
+        return subprocess.Popen([COMMAND, "replay", "-o", "out", *words], cwd=self.folder, start_new_session=True,
+                                env={**os.environ, **NO_DISPLAY, **(env or {})}, stderr=subprocess.PIPE)
+
+    def wait_until(self, condition, process):
+        deadline = time.monotonic() + 200
+        while not condition():
+            self.assertIsNone(process.poll(), "ended before the signal")
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+
+    def has_rows(self, name):
+        paths = glob.glob(self.path(f"out/{name}.partial/*/runs/*/frames.csv"))
+        return any(len(read_rows(path)) > 2 for path in paths)
+
+    def end_of(self, process, number):
+        """What it says at its end; nothing that it started is left."""
+        os.killpg(process.pid, number)
+        _, text = process.communicate(timeout=100)
+        self.assertEqual(process.returncode, 128 + number, text)
+        for path in glob.glob("/proc/[0-9]*/stat"):
+            try:
+                with open(path, encoding="utf-8", errors="replace") as file:
+                    words = file.read().rsplit(")", 1)[1].split()
+            except OSError:  # it has just ended
+                continue
+            self.assertNotEqual((words[0] != "Z", int(words[3])), (True, process.pid), path)
+        return text.decode()
+
+    def assert_cut(self, trace, number):
+        folder = self.run_of(trace)
+        run = read_json(folder + "/run.json")
+        rows = read_rows(folder + "/frames.csv")
+        self.assertEqual((run["state"], run["via"], run["signal"]), (f"killed by signal {number}", "replay", number))
+        self.assertEqual((run["counts"]["captured"], run["reason"]),
+                         (len(rows), f"stopped after {len(rows)} of {FRAMES[trace]} frames"))
+        self.assertEqual([int(row["frame"]) for row in rows], list(range(len(rows))))
+        self.assertEqual(len(read_rows(folder + "/schemes.csv")), len(rows) * len(run["schemes"]))
+        self.assertEqual(glob.glob(folder + "/*live*"), [])
+        return len(rows)
+
+    def test_leave_the_frames_so_far_and_a_line(self):
+        for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGINT):
+            shutil.rmtree(self.path("out"), ignore_errors=True)
+            process = self.start(EGL)
+            self.wait_until(lambda: self.has_rows("glmark2-desktop-egl"), process)
+            text = self.end_of(process, number)
+            rows = self.assert_cut(EGL, number)
+            self.assertEqual(text, f"tilepress: killed by signal {number} ({signal.strsignal(number)}): "
+                                   f"{EGL} stopped after {rows} of 69 frames\n")
+            self.assert_absent("out/glmark2-desktop-egl.partial")
 
         self.replay("-s", "red", "--resume", EGL, status=FAILED)  # other options: not the same replay
         self.replay("-q", "--resume", EGL)
         self.assertEqual(len(read_rows(self.run_of(EGL) + "/frames.csv")), FRAMES[EGL])
+
+    def test_name_what_is_done_and_what_is_not(self):
+        process = self.start("-s", "red", GLX, EGL, MAP)
+        self.wait_until(lambda: self.has_rows("glmark2-desktop-egl"), process)
+        text = self.end_of(process, signal.SIGINT)
+        self.assertEqual(text, f"tilepress: killed by signal 2 (Interrupt): done: {GLX}; {EGL} stopped after "
+                               f"{self.assert_cut(EGL, 2)} of 69 frames; not replayed: {MAP}\n")
+        self.assertEqual(read_json(self.run_of(GLX) + "/run.json")["state"], "finished")
+        self.assertEqual(sorted(os.listdir(self.path("out"))),
+                         ["categories.csv", "glmark2-desktop-egl", "glmark2-desktop-glx", "replay.csv"])
+        self.assertEqual([row["status"] for row in read_rows(self.path("out/replay.csv"))],
+                         ["done", "interrupted", "not replayed"])
+        self.assertIn("exists already", self.replay("-q", "-s", "red", EGL, status=FAILED))
+        self.replay("-q", "-s", "red", "--resume", GLX, EGL, MAP)
+
+    def test_end_what_is_started_at_that_time(self):
+        for name, words in (("Xvfb", ["--display", "xvfb"]), ("eglretrace", [])):
+            self.write(name, b'#!/bin/sh\ntrap "" INT\necho > "$(dirname "$0")/started"\nsleep 1000\n')
+            os.chmod(self.path(name), stat.S_IRWXU)
+            process = self.start(*words, EGL, env={"PATH": self.folder + ":" + os.environ["PATH"]})
+            self.wait_until(lambda: os.path.exists(self.path("started")), process)
+            self.assertEqual(self.end_of(process, signal.SIGINT), f"tilepress: killed by signal 2 (Interrupt): {EGL} "
+                                                                  "stopped after 0 of 69 frames\n")
+            self.assertEqual(sorted(os.listdir(self.path("out"))), ["categories.csv", "replay.csv"])
+            os.remove(self.path("started"))
+            os.remove(self.path(name))
 
     def test_are_taken_up_again_without_touching_what_is_finished(self):
         self.replay("-s", "red", "--frames", "0-2", GLX)
