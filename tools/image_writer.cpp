@@ -1,7 +1,6 @@
 // Image writer: words to samples.
 #include "image_writer.h"
 
-#include <cerrno>
 #include <cstring>
 #include <vector>
 
@@ -54,11 +53,11 @@ bool write_png(const std::string& path, std::span<const uint32_t> words, uint32_
   const std::vector<uint8_t> bytes(samples.begin(), samples.end());
   PngPixels pixels{.width = width, .height = height, .channels = channels, .channel_bits = depth};
   pixels.samples = depth == 16 ? static_cast<const void*>(samples.data()) : bytes.data();
-  std::string reason;
-  PendingFile pending;
-  if (!pending.begin(path, replace, error)) return false;
-  if (library->write_png(pending.path(), pixels, reason)) return pending.commit(error);
-  error = path + ": " + (reason.empty() ? std::strerror(errno) : reason);
+  // Into memory first: OpenImageIO does not report a full disk.
+  const std::vector<uint8_t> png = library->encode_png(pixels);
+  if (!png.empty())
+    return write_whole_file(path, {reinterpret_cast<const char*>(png.data()), png.size()}, replace, error);
+  error = path + ": cannot be encoded";
   return false;
 }
 
