@@ -1,18 +1,25 @@
-// ELF symbols: reads the dynamic section of loaded objects (gABI chapter 5, and the GNU hash table).
+// ELF symbols: walks over the loaded objects while the dynamic linker holds its list still.
 #define _GNU_SOURCE
 #include "elf_symbols.h"
 
+#include <dlfcn.h>
 #include <elf.h>
 #include <link.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <string.h>
 
-struct dynamic_tables {
-  const ElfW(Sym) * symbols;
-  const char* strings;
-  const uint32_t* gnu_hash;
-  const uint32_t* hash;
+#include "c_library.h"
+#include "elf_tables.h"
+#include "plain_text.h"
+
+struct search {
+  const char* name;    // symbol wanted
+  const void* inside;  // an address in the object wanted; NULL = any object
+  const void* except;  // an address in an object to leave out
+  bool skip_ours;
+  int position;
+  void* found;
+  struct tp_text* path;  // where to copy the path of the object wanted
 };
 
 static bool holds(const struct dl_phdr_info* object, const void* address) {
@@ -24,123 +31,50 @@ static bool holds(const struct dl_phdr_info* object, const void* address) {
   return false;
 }
 
-// glibc rewrites these addresses when it loads an object, musl does not.
-static const void* table_address(const struct dl_phdr_info* object, ElfW(Addr) value) {
-  const void* address = (const void*)value;
-  return holds(object, address) ? address : (const void*)(object->dlpi_addr + value);
-}
-
-static bool read_tables(const struct dl_phdr_info* object, struct dynamic_tables* tables) {
-  memset(tables, 0, sizeof *tables);
-  for (int i = 0; i < object->dlpi_phnum; ++i) {
-    if (object->dlpi_phdr[i].p_type != PT_DYNAMIC) continue;
-    const ElfW(Dyn)* entry = (const void*)(object->dlpi_addr + object->dlpi_phdr[i].p_vaddr);
-    for (; entry->d_tag != DT_NULL; ++entry) {
-      if (entry->d_tag == DT_SYMTAB) tables->symbols = table_address(object, entry->d_un.d_ptr);
-      if (entry->d_tag == DT_STRTAB) tables->strings = table_address(object, entry->d_un.d_ptr);
-      if (entry->d_tag == DT_GNU_HASH) tables->gnu_hash = table_address(object, entry->d_un.d_ptr);
-      if (entry->d_tag == DT_HASH) tables->hash = table_address(object, entry->d_un.d_ptr);
-    }
-  }
-  return tables->symbols != NULL && tables->strings != NULL;
-}
-
-static bool defines(const struct dynamic_tables* tables, uint32_t index, const char* name) {
-  const ElfW(Sym)* symbol = &tables->symbols[index];
-  return symbol->st_shndx != SHN_UNDEF && symbol->st_value != 0 && (symbol->st_info & 0xf) == STT_FUNC &&
-         strcmp(tables->strings + symbol->st_name, name) == 0;
-}
-
-static uint32_t find_by_gnu_hash(const struct dynamic_tables* tables, const char* name) {
-  const uint32_t bucket_count = tables->gnu_hash[0], first = tables->gnu_hash[1],
-                 bloom_words = tables->gnu_hash[2];
-  if (bucket_count == 0) return 0;
-  const uint32_t* buckets = (const uint32_t*)((const ElfW(Addr)*)(tables->gnu_hash + 4) + bloom_words);
-  const uint32_t* chain = buckets + bucket_count;
-  uint32_t hash = 5381;
-  for (const char* c = name; *c != 0; ++c) hash = hash * 33 + (unsigned char)*c;
-  uint32_t index = buckets[hash % bucket_count];
-  if (index < first) return 0;
-  for (;; ++index) {
-    const uint32_t entry = chain[index - first];
-    if ((entry | 1) == (hash | 1) && defines(tables, index, name)) return index;
-    if ((entry & 1) != 0) return 0;
-  }
-}
-
-static uint32_t find_by_hash(const struct dynamic_tables* tables, const char* name) {
-  const uint32_t symbol_count = tables->hash[1];
-  for (uint32_t index = 1; index < symbol_count; ++index)
-    if (defines(tables, index, name)) return index;
-  return 0;
-}
-
-static void* find_in_object(const struct dl_phdr_info* object, const char* name) {
-  struct dynamic_tables tables;
-  if (!read_tables(object, &tables)) return NULL;
-  uint32_t index = 0;
-  if (tables.gnu_hash != NULL)
-    index = find_by_gnu_hash(&tables, name);
-  else if (tables.hash != NULL)
-    index = find_by_hash(&tables, name);
-  return index != 0 ? (void*)(object->dlpi_addr + tables.symbols[index].st_value) : NULL;
-}
-
-struct search {
-  const char* name;             // symbol wanted
-  const char* const* prefixes;  // of the file's name; NULL = any object
-  const void* inside;           // an address in the object wanted; NULL = any object
-  const void* except;           // an address in an object to leave out
-  bool skip_ours;
-  int position;
-  void* found;
-};
-
-static bool name_matches(const char* path, const char* const* prefixes) {
-  const char* slash = strrchr(path, '/');
-  const char* base = slash != NULL ? slash + 1 : path;
-  for (; *prefixes != NULL; ++prefixes)
-    if (strncmp(base, *prefixes, strlen(*prefixes)) == 0) return true;
-  return false;
+static void* find_in(const struct dl_phdr_info* info, const char* name) {
+  struct tp_object object = {info->dlpi_addr, NULL};
+  for (int i = 0; i < info->dlpi_phnum; ++i)
+    if (info->dlpi_phdr[i].p_type == PT_DYNAMIC)
+      object.dynamic = (const void*)(info->dlpi_addr + info->dlpi_phdr[i].p_vaddr);
+  return tp_function_in(&object, name);
 }
 
 static int visit(struct dl_phdr_info* object, size_t size, void* argument) {
   (void)size;
   struct search* search = argument;
   const int position = search->position++;
-  if (search->prefixes != NULL && !name_matches(object->dlpi_name, search->prefixes)) return 0;
   if (search->inside != NULL && !holds(object, search->inside)) return 0;
   if (search->except != NULL && holds(object, search->except)) return 0;
   if (search->skip_ours && holds(object, (const void*)&visit)) return 0;
+  if (search->path != NULL && object->dlpi_name != NULL) tp_append(search->path, object->dlpi_name);
   if (search->name == NULL) {
     search->position = position;
     return 1;
   }
-  search->found = find_in_object(object, search->name);
+  search->found = find_in(object, search->name);
   return search->found != NULL || search->inside != NULL;
 }
 
-void* tp_symbol_in_library(const char* const* prefixes, const char* name) {
-  struct search search = {.name = name, .prefixes = prefixes};
-  dl_iterate_phdr(visit, &search);
-  return search.found;
+static bool walk(struct search* search) {
+  const struct tp_c_library* library = tp_c_library();
+  return library != NULL && library->dl_iterate_phdr(visit, search) != 0;
 }
 
 void* tp_symbol_in_object_of(const void* address, const char* name) {
   struct search search = {.name = name, .inside = address};
-  dl_iterate_phdr(visit, &search);
+  walk(&search);
   return search.found;
 }
 
 void* tp_symbol_anywhere(const char* name, const void* except) {
   struct search search = {.name = name, .except = except, .skip_ours = true};
-  dl_iterate_phdr(visit, &search);
+  walk(&search);
   return search.found;
 }
 
 int tp_load_position(const void* address) {
   struct search search = {.inside = address};
-  return dl_iterate_phdr(visit, &search) != 0 ? search.position : -1;
+  return walk(&search) ? search.position : -1;
 }
 
 bool tp_is_ours(const void* address) {
@@ -150,4 +84,21 @@ bool tp_is_ours(const void* address) {
 bool tp_same_object(const void* a, const void* b) {
   const int position = tp_load_position(a);
   return position >= 0 && position == tp_load_position(b);
+}
+
+bool tp_path_of_object(const void* address, char* path, size_t size) {
+  struct tp_text text = {path, size, 0, false};
+  path[0] = 0;
+  struct search search = {.inside = address, .path = &text};
+  return walk(&search) && text.length > 0 && !text.cut;
+}
+
+void* tp_handle_of_object(const void* address) {
+  const struct tp_c_library* library = tp_c_library();
+  Dl_info where;
+  void* object = NULL;
+  if (library == NULL || library->dladdr1 == NULL ||
+      library->dladdr1(address, &where, &object, RTLD_DL_LINKMAP) == 0)
+    return NULL;
+  return object;
 }

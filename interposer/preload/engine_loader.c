@@ -3,53 +3,74 @@
 #include "engine_loader.h"
 
 #include <dlfcn.h>
-#include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include <stddef.h>
 
-#include "real_dlsym.h"
-#include "session_file.h"
+#include "c_library.h"
+#include "elf_symbols.h"
+#include "environment.h"
+#include "plain_text.h"
+#include "system_calls.h"
 
 static const struct TilepressEngine* loaded;
 
 static void* open_beside(const char* own_path, const char* name) {
-  char path[4096];
-  const char* slash = strrchr(own_path, '/');
-  const int folder_length = slash != NULL ? (int)(slash - own_path) + 1 : 0;
-  const int length = snprintf(path, sizeof path, "%.*s%s", folder_length, own_path, name);
-  return length < (int)sizeof path ? dlopen(path, RTLD_NOW | RTLD_LOCAL) : NULL;
+  char bytes[4096];
+  struct tp_text path = {bytes, sizeof bytes, 0, false};
+  tp_append_part(&path, own_path, (size_t)(tp_base_name(own_path) - own_path));
+  tp_append(&path, name);
+  return path.cut ? NULL : tp_c_library()->dlopen(bytes, RTLD_NOW | RTLD_LOCAL);
 }
 
 static void report(const char* reason) {
-  const char* path = getenv("TILEPRESS_LOG_FILE");
-  FILE* file = path != NULL && path[0] != 0 ? fopen(path, "ae") : NULL;
-  if (file == NULL) return;
-  fprintf(file, "tilepress: engine: %s\n", reason != NULL ? reason : "not loaded");
-  fclose(file);
+  const char* path = tp_environment("TILEPRESS_LOG_FILE");
+  const int file = path != NULL ? tp_open(path, O_WRONLY | O_APPEND | O_CREAT, 0666) : -1;
+  if (file < 0) return;
+  char bytes[4096];
+  struct tp_text line = {bytes, sizeof bytes, 0, false};
+  tp_append(&line, "tilepress: engine: ");
+  tp_append(&line, reason != NULL ? reason : "not loaded");
+  tp_append(&line, "\n");
+  tp_write(file, bytes, line.length);
+  tp_close(file);
 }
 
 static void load(void) {
-  const char* output = getenv("TILEPRESS_OUT");
-  Dl_info own;
-  if (output == NULL || output[0] == 0 || dladdr((void*)&load, &own) == 0) return;
-  void* library = open_beside(own.dli_fname, "libtilepress-engine.so");
-  if (library == NULL) library = open_beside(own.dli_fname, "tilepress/libtilepress-engine.so");
-  if (library == NULL) {
-    report(dlerror());
+  const struct tp_c_library* library = tp_c_library();
+  char own_path[4096];
+  if (library == NULL || !library->is_glibc || tp_environment("TILEPRESS_OUT") == NULL ||
+      !tp_path_of_object((void*)&load, own_path, sizeof own_path))
+    return;
+  void* opened = open_beside(own_path, "libtilepress-engine.so");
+  if (opened == NULL) opened = open_beside(own_path, "tilepress/libtilepress-engine.so");
+  if (opened == NULL) {
+    report(library->dlerror());
     return;
   }
-  TilepressEngineEntry entry = (TilepressEngineEntry)tp_real_dlsym()(library, "tilepress_engine");
+  TilepressEngineEntry entry = (TilepressEngineEntry)library->dlsym(opened, "tilepress_engine");
   static struct TilepressHost host = {TILEPRESS_ENGINE_VERSION, NULL};
-  host.dlsym = tp_real_dlsym();
+  host.dlsym = library->dlsym;
   const struct TilepressEngine* engine = entry != NULL ? entry(&host) : NULL;
   if (engine == NULL) report("of another version");
   __atomic_store_n(&loaded, engine, __ATOMIC_RELEASE);
 }
 
 const struct TilepressEngine* tp_engine(void) {
-  static pthread_once_t once = PTHREAD_ONCE_INIT;
-  pthread_once(&once, load);
+  enum { kUntried = 0, kTried = -1 };
+  static int state;  // otherwise the process that is trying: a forked child does not wait for its parent's thread
+  int seen = __atomic_load_n(&state, __ATOMIC_ACQUIRE);
+  while (seen != kTried) {
+    const int process = tp_process_id();
+    if (seen == process) {
+      tp_wait_while(&state, process);
+      seen = __atomic_load_n(&state, __ATOMIC_ACQUIRE);
+    } else if (__atomic_compare_exchange_n(&state, &seen, process, false, __ATOMIC_ACQ_REL,
+                                           __ATOMIC_ACQUIRE)) {
+      load();
+      __atomic_store_n(&state, kTried, __ATOMIC_RELEASE);
+      tp_wake(&state);
+      break;
+    }
+  }
   return __atomic_load_n(&loaded, __ATOMIC_ACQUIRE);
 }
 

@@ -5,15 +5,16 @@
 #include <dlfcn.h>
 #include <link.h>
 #include <stddef.h>
-#include <string.h>
 
+#include "c_library.h"
 #include "elf_symbols.h"
 #include "gl_hooks.h"
-#include "real_dlsym.h"
+#include "plain_text.h"
 #include "session_file.h"
 
+// Arrays, not pointers: readable before this library is relocated.
 // clang-format off
-const char* const tp_entry_names[TP_ENTRY_COUNT] = {
+const char tp_entry_names[TP_ENTRY_COUNT][TP_ENTRY_NAME_SIZE] = {
     "OSMesaDestroyContext",
     "OSMesaGetProcAddress",
     "OSMesaMakeCurrent",
@@ -47,7 +48,7 @@ int tp_find_entry(const char* name) {
   int low = 0, high = TP_ENTRY_COUNT;
   while (low < high) {
     const int middle = (low + high) / 2;
-    const int order = strcmp(name, tp_entry_names[middle]);
+    const int order = tp_compare(name, tp_entry_names[middle]);
     if (order == 0) return middle;
     if (order < 0)
       high = middle;
@@ -58,11 +59,10 @@ int tp_find_entry(const char* name) {
 }
 
 void tp_pin_library_of(void* function) {
-  Dl_info where;
-  if (dladdr(function, &where) == 0 || where.dli_fname == NULL || strchr(where.dli_fname, '/') == NULL)
-    return;
-  dlopen(where.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
-  dlerror();
+  char path[4096];
+  if (!tp_path_of_object(function, path, sizeof path) || tp_base_name(path) == path) return;
+  tp_c_library()->dlopen(path, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
+  tp_c_library()->dlerror();
 }
 
 void* tp_bind(enum tp_entry entry, void* real) {
@@ -80,16 +80,16 @@ void* tp_bind(enum tp_entry entry, void* real) {
 }
 
 static void* next_or_the_callers(const char* name, void* caller) {
-  void* found = tp_real_dlsym()(RTLD_NEXT, name);
+  const struct tp_c_library* library = tp_c_library();
+  if (library == NULL) return NULL;
+  void* found = library->dlsym(RTLD_NEXT, name);
   if (found == NULL) {
     // Not in the global scope: the caller's own library may have brought its GL library along.
-    Dl_info where;
-    struct link_map* object = NULL;
-    if (dladdr1(caller, &where, (void**)&object, RTLD_DL_LINKMAP) != 0 && object != NULL)
-      found = tp_real_dlsym()(object, name);
+    void* object = tp_handle_of_object(caller);
+    if (object != NULL) found = library->dlsym(object, name);
     if (found != NULL && tp_is_ours(found)) found = NULL;
   }
-  dlerror();
+  library->dlerror();
   return found;
 }
 
@@ -102,7 +102,7 @@ static void* find_definition(enum tp_entry entry, void* caller) {
 }
 
 void* tp_definition_after_ours(const char* name, void* caller) {
-  void* found = tp_real_dlsym() != NULL ? next_or_the_callers(name, caller) : NULL;
+  void* found = next_or_the_callers(name, caller);
   if (found == NULL) found = tp_symbol_anywhere(name, NULL);
   if (found != NULL && tp_same_object(found, caller)) return tp_symbol_anywhere(name, found);
   if (found != NULL) tp_pin_library_of(found);

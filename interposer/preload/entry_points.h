@@ -32,7 +32,9 @@ enum tp_entry {
 // a hook is bound to a real function, not to a name, and each entry point has this many hooks.
 enum { TP_BANK_SIZE = 8 };
 
-extern const char* const tp_entry_names[TP_ENTRY_COUNT];
+enum { TP_ENTRY_NAME_SIZE = 28 };  // of the longest, with its zero
+
+extern const char tp_entry_names[TP_ENTRY_COUNT][TP_ENTRY_NAME_SIZE];
 extern void* tp_bound[TP_ENTRY_COUNT][TP_BANK_SIZE];
 extern void* const tp_hooks[TP_ENTRY_COUNT][TP_BANK_SIZE];
 

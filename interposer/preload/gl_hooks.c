@@ -2,12 +2,12 @@
 #include "gl_hooks.h"
 
 #include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "elf_symbols.h"
 #include "entry_points.h"
+#include "environment.h"
 #include "gl_slots.h"
+#include "plain_text.h"
 #include "presenting.h"
 
 #define HIDDEN __attribute__((visibility("hidden")))
@@ -29,7 +29,8 @@ HIDDEN struct tp_gl_slot tp_gl_slots[TP_GL_NAMES + TP_GL_POOL] = {
 
 #define TP_GL_TRIGGER(name, kind) #name,
 #define TP_GL_TARGET(name, kind) #name,
-static const char* const kNames[] = {
+// Arrays, not pointers: readable before this library is relocated.
+static const char kNames[][56] = {
 #include "gl_names.def"
 };
 _Static_assert(sizeof kNames / sizeof *kNames == TP_GL_NAMES, "gl_slots.h tells another number of names");
@@ -49,11 +50,12 @@ static __thread __attribute__((tls_model("initial-exec"))) bool osmesa_swaps;
 
 // As the options of the same names: lists separated by commas.
 static bool lists(const char* variable, const char* word) {
-  const char* text = getenv(variable);
-  const size_t length = strlen(word);
-  for (; text != NULL; text = strchr(text, ',')) {
+  const char* text = tp_environment(variable);
+  const size_t length = tp_length(word);
+  while (text != NULL && *text != 0) {
+    if (tp_starts_with(text, word) && (text[length] == 0 || text[length] == ',')) return true;
+    while (*text != 0 && *text != ',') ++text;
     if (*text == ',') ++text;
-    if (strncmp(text, word, length) == 0 && (text[length] == 0 || text[length] == ',')) return true;
   }
   return false;
 }
@@ -61,9 +63,8 @@ static bool lists(const char* variable, const char* word) {
 static uint32_t wanted(void) {
   uint32_t known = __atomic_load_n(&asked_for, __ATOMIC_ACQUIRE);
   if (known != ~0u) return known;
-  const char* output = getenv("TILEPRESS_OUT");
   known = 0;
-  if (output != NULL && output[0] != 0) {
+  if (tp_environment("TILEPRESS_OUT") != NULL) {
     if (lists("TILEPRESS_TRIGGER", "finish")) known |= 1u << TILEPRESS_GL_FINISH;
     if (lists("TILEPRESS_TRIGGER", "flush")) known |= 1u << TILEPRESS_GL_FLUSH;
     if (lists("TILEPRESS_TRIGGER", "readpixels")) known |= 1u << TILEPRESS_GL_READ_PIXELS;
@@ -76,9 +77,9 @@ static uint32_t wanted(void) {
 }
 
 int tp_find_gl(const char* name) {
-  if (name == NULL || (strncmp(name, "gl", 2) != 0 && strcmp(name, "eglMakeCurrent") != 0)) return -1;
+  if (name == NULL || (!tp_starts_with(name, "gl") && tp_compare(name, "eglMakeCurrent") != 0)) return -1;
   for (int i = 0; i < TP_GL_NAMES; ++i)
-    if (strcmp(name, kNames[i]) == 0) return i;
+    if (tp_compare(name, kNames[i]) == 0) return i;
   return -1;
 }
 

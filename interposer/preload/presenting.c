@@ -1,10 +1,10 @@
 // Presenting: keeps errno and cancellation away from the program's sight while the engine works.
 #include "presenting.h"
 
-#include <errno.h>
 #include <pthread.h>
 #include <stddef.h>
 
+#include "c_library.h"
 #include "current_drawables.h"
 #include "engine_loader.h"
 #include "session_file.h"
@@ -14,11 +14,29 @@ void* (*tp_driver_lookup[TILEPRESS_API_COUNT])(const char* name);
 // Depth of presenting calls on this thread. A driver or another shim may present through a hooked function.
 static __thread int depth __attribute__((tls_model("initial-exec")));
 
+// What the engine's work must not change.
+struct thread_state {
+  int error, cancel_state;
+};
+
+// Precondition of both: the C library is known.
+static struct thread_state save_thread(void) {
+  const struct tp_c_library* library = tp_c_library();
+  struct thread_state state = {*library->errno_location(), 0};
+  library->pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &state.cancel_state);
+  return state;
+}
+
+static void restore_thread(struct thread_state state) {
+  const struct tp_c_library* library = tp_c_library();
+  int disabled;
+  library->pthread_setcancelstate(state.cancel_state, &disabled);
+  *library->errno_location() = state.error;
+}
+
 bool tp_presenting(struct TilepressPresent* present) {
-  if (depth > 0 || present->real == NULL) return false;
-  int cancel_state;
-  const int saved = errno;
-  pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &cancel_state);
+  if (depth > 0 || present->real == NULL || tp_c_library() == NULL) return false;
+  const struct thread_state state = save_thread();
   depth = 1;
   present->via = tp_via;
   present->look_up = tp_driver_lookup[present->api];
@@ -28,26 +46,20 @@ bool tp_presenting(struct TilepressPresent* present) {
   const struct TilepressEngine* engine = tp_engine();
   const bool taken = engine != NULL && engine->begin(present) != 0;
   depth = taken ? 1 : 0;
-  pthread_setcancelstate(cancel_state, NULL);
-  errno = saved;
+  restore_thread(state);
   return taken;
 }
 
 void tp_presented(struct TilepressPresent* present, bool success) {
-  int cancel_state;
-  const int saved = errno;
-  pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &cancel_state);
+  const struct thread_state state = save_thread();
   tp_loaded_engine()->end(present, success);
   depth = 0;
-  pthread_setcancelstate(cancel_state, NULL);
-  errno = saved;
+  restore_thread(state);
 }
 
 void tp_gl_called(struct TilepressGlCall* call) {
-  if (depth > 0) return;
-  int cancel_state;
-  const int saved = errno;
-  pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &cancel_state);
+  if (depth > 0 || tp_c_library() == NULL) return;
+  const struct thread_state state = save_thread();
   depth = 1;
   call->via = tp_via;
   call->context_destroyed = tp_current_context_is_destroyed();
@@ -55,30 +67,30 @@ void tp_gl_called(struct TilepressGlCall* call) {
   const struct TilepressEngine* engine = tp_engine();
   if (engine != NULL) engine->gl_call(call);
   depth = 0;
-  pthread_setcancelstate(cancel_state, NULL);
-  errno = saved;
+  restore_thread(state);
 }
 
 uint8_t* tp_gl_drawn_mark(void) {
-  const int saved = errno;
+  if (tp_c_library() == NULL) return NULL;
+  const struct thread_state state = save_thread();
   const struct TilepressEngine* engine = tp_engine();
   uint8_t* mark = engine != NULL ? engine->drawn_mark() : NULL;
-  errno = saved;
+  restore_thread(state);
   return mark;
 }
 
 void tp_contexts_going(uint32_t api, void* display, void* context) {
   const struct TilepressEngine* engine = tp_loaded_engine();
   if (engine == NULL || depth > 0) return;
-  const int saved = errno;
+  const struct thread_state state = save_thread();
   engine->contexts_going(api, display, context);
-  errno = saved;
+  restore_thread(state);
 }
 
 void tp_surface_going(void* display, uintptr_t surface) {
   const struct TilepressEngine* engine = tp_loaded_engine();
   if (engine == NULL || depth > 0) return;
-  const int saved = errno;
+  const struct thread_state state = save_thread();
   engine->surface_going(display, surface);
-  errno = saved;
+  restore_thread(state);
 }

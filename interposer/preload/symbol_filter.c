@@ -1,14 +1,13 @@
 // Symbol filter: decides, for every dlsym and dlvsym of the process, who answers.
 #define _GNU_SOURCE
 #include <dlfcn.h>
-#include <link.h>
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "c_library.h"
 #include "elf_symbols.h"
 #include "entry_points.h"
 #include "gl_hooks.h"
-#include "real_dlsym.h"
 #include "session_file.h"
 
 // What the trampoline does next: jump to the real function with stack and registers as its caller left them,
@@ -18,8 +17,12 @@ struct tp_verdict {
   void* answer;
 };
 
+// With any handle but RTLD_NEXT, which is relative to who calls, another interposer's answer counts too.
 static void* look_up(void* handle, const char* name, const char* version) {
-  return version != NULL ? tp_real_dlvsym()(handle, name, version) : tp_real_dlsym()(handle, name);
+  const struct tp_c_library* library = tp_c_library();
+  const bool next = handle == RTLD_NEXT;
+  if (version != NULL) return (next ? library->dlvsym : library->next_dlvsym)(handle, name, version);
+  return (next ? library->dlsym : library->next_dlsym)(handle, name);
 }
 
 // An ANGLE handle is left alone: ANGLE's frames are seen one level down, at the library it draws with.
@@ -39,11 +42,10 @@ static void* look_past_us(void* handle, const char* name, const char* version, c
   void* found = look_up(RTLD_NEXT, name, version);
   if (found != NULL || handle != RTLD_DEFAULT) return found;
   // The caller may be a plugin with libraries of its own, which the global scope does not show.
-  Dl_info where;
-  struct link_map* object = NULL;
-  if (dladdr1(caller, &where, (void**)&object, RTLD_DL_LINKMAP) != 0) found = look_up(object, name, version);
+  void* object = tp_handle_of_object(caller);
+  if (object != NULL) found = look_up(object, name, version);
   if (found != NULL && !tp_is_ours(found)) {
-    dlerror();  // a success leaves no message behind
+    tp_c_library()->dlerror();  // a success leaves no message behind
     return found;
   }
   return look_up(RTLD_NEXT, name, version);  // nothing, and dlerror says so
@@ -54,7 +56,7 @@ static struct tp_verdict decide(void* handle, const char* name, const char* vers
   const struct tp_verdict forward = {real_function, NULL};
   const int entry = tp_find_entry(name), gl = entry < 0 ? tp_find_gl(name) : -1;
   if (entry < 0 && (gl < 0 || !tp_gl_concerns(gl))) return forward;
-  if (real_function == NULL || tp_real_dlsym() == NULL) return forward;
+  if (real_function == NULL) return forward;
   void* real;
   if (handle == RTLD_NEXT) {
     if (!next_is_ours(caller)) return forward;
@@ -76,9 +78,11 @@ static struct tp_verdict decide(void* handle, const char* name, const char* vers
 
 // Called by the trampolines only.
 struct tp_verdict tp_filter_dlsym(void* handle, const char* name, const void* caller) {
-  return decide(handle, name, NULL, caller, (void*)tp_real_dlsym());
+  const struct tp_c_library* library = tp_c_library();
+  return decide(handle, name, NULL, caller, library != NULL ? (void*)library->next_dlsym : NULL);
 }
 
 struct tp_verdict tp_filter_dlvsym(void* handle, const char* name, const char* version, const void* caller) {
-  return decide(handle, name, version, caller, (void*)tp_real_dlvsym());
+  const struct tp_c_library* library = tp_c_library();
+  return decide(handle, name, version, caller, library != NULL ? (void*)library->next_dlvsym : NULL);
 }

@@ -4,12 +4,13 @@
 #include <EGL/egl.h>
 #include <dlfcn.h>
 #include <glvnd/libeglabi.h>
-#include <stdlib.h>
+#include <stddef.h>
 
+#include "../preload/c_library.h"
 #include "../preload/entry_points.h"
+#include "../preload/environment.h"
 #include "../preload/gl_hooks.h"
 #include "../preload/presenting.h"
-#include "../preload/real_dlsym.h"
 
 // libglvnd takes a library once: behind several of its vendor files stand as many copies, each with a driver
 // of its own. Where the first is told no driver it is Mesa's.
@@ -33,11 +34,12 @@ static void* get_proc_address(const char* name) {
 __attribute__((visibility("default"))) EGLBoolean __egl_Main(uint32_t version, const __EGLapiExports* exports,
                                                              __EGLvendorInfo* vendor,
                                                              __EGLapiImports* imports) {
-  const char* driver_name = getenv(TP_DRIVER_VARIABLE);
-  if (driver_name == NULL || *driver_name == 0) driver_name = TP_DRIVER_ELSE;
-  void* driver = driver_name != NULL ? dlopen(driver_name, RTLD_LAZY) : NULL;
-  if (driver == NULL || tp_real_dlsym() == NULL) return EGL_FALSE;
-  __PFNEGLMAINPROC driver_main = (__PFNEGLMAINPROC)tp_real_dlsym()(driver, __EGL_MAIN_PROTO_NAME);
+  const struct tp_c_library* library = tp_c_library();
+  const char* driver_name = tp_environment(TP_DRIVER_VARIABLE);
+  if (driver_name == NULL) driver_name = TP_DRIVER_ELSE;
+  void* driver = library != NULL && driver_name != NULL ? library->dlopen(driver_name, RTLD_LAZY) : NULL;
+  if (driver == NULL) return EGL_FALSE;
+  __PFNEGLMAINPROC driver_main = (__PFNEGLMAINPROC)library->dlsym(driver, __EGL_MAIN_PROTO_NAME);
   if (driver_main == NULL || !driver_main(version, exports, vendor, imports)) return EGL_FALSE;
   driver_get_proc_address = imports->getProcAddress;
   tp_driver_lookup[TILEPRESS_EGL] = imports->getProcAddress;

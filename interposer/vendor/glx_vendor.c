@@ -2,13 +2,14 @@
 #include <GL/glx.h>
 #include <dlfcn.h>
 #include <glvnd/libglxabi.h>
-#include <stdio.h>
-#include <stdlib.h>
+#include <stddef.h>
 
+#include "../preload/c_library.h"
 #include "../preload/entry_points.h"
+#include "../preload/environment.h"
 #include "../preload/gl_hooks.h"
+#include "../preload/plain_text.h"
 #include "../preload/presenting.h"
-#include "../preload/real_dlsym.h"
 
 static void* (*driver_get_proc_address)(const GLubyte* name);
 
@@ -26,15 +27,18 @@ static void* look_up(const char* name) {
 }
 
 __attribute__((visibility("default"))) Bool __glx_Main(uint32_t version, const __GLXapiExports* exports,
-                                                       __GLXvendorInfo* vendor, __GLXapiImports* imports) {
-  char library[256];
-  const char* driver_name = getenv("TILEPRESS_GLX_VENDOR");
-  snprintf(library, sizeof library, "libGLX_%s.so.0",
-           driver_name != NULL && *driver_name != 0 ? driver_name : "mesa");
-  void* driver = dlopen(library, RTLD_LAZY);
-  if (driver == NULL || tp_real_dlsym() == NULL) return False;
-  __PFNGLXMAINPROC driver_main = (__PFNGLXMAINPROC)tp_real_dlsym()(driver, __GLX_MAIN_PROTO_NAME);
-  if (driver_main == NULL || !driver_main(version, exports, vendor, imports)) return False;
+                                                       __GLXvendorInfo* vendor_info, __GLXapiImports* imports) {
+  const struct tp_c_library* library = tp_c_library();
+  const char* vendor = tp_environment("TILEPRESS_GLX_VENDOR");
+  char bytes[256];
+  struct tp_text name = {bytes, sizeof bytes, 0, false};
+  tp_append(&name, "libGLX_");
+  tp_append(&name, vendor != NULL ? vendor : "mesa");
+  tp_append(&name, ".so.0");
+  void* driver = library != NULL && !name.cut ? library->dlopen(bytes, RTLD_LAZY) : NULL;
+  if (driver == NULL) return False;
+  __PFNGLXMAINPROC driver_main = (__PFNGLXMAINPROC)library->dlsym(driver, __GLX_MAIN_PROTO_NAME);
+  if (driver_main == NULL || !driver_main(version, exports, vendor_info, imports)) return False;
   driver_get_proc_address = imports->getProcAddress;
   tp_driver_lookup[TILEPRESS_GLX] = look_up;
   imports->getProcAddress = get_proc_address;

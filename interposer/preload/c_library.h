@@ -1,0 +1,34 @@
+// C library: the functions of the C library that the shim calls, found in its symbol table. Their names are not
+// used: a sanitizer, a shell or the program itself may define functions of these names, and may not be ready to
+// be called when a library looks a symbol up.
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef void* (*tp_dlsym_function)(void* handle, const char* name);
+typedef void* (*tp_dlvsym_function)(void* handle, const char* name, const char* version);
+
+struct dl_phdr_info;
+
+struct tp_c_library {
+  bool is_glibc;  // the engine needs glibc
+  tp_dlsym_function dlsym;
+  tp_dlvsym_function dlvsym;  // NULL in musl
+  // What a call of these names would reach without this library: another interposer's, or the two above.
+  tp_dlsym_function next_dlsym;
+  tp_dlvsym_function next_dlvsym;
+  void* (*dlopen)(const char* file, int flags);
+  char* (*dlerror)(void);
+  int (*dladdr1)(const void* address, void* where, void** extra, int flags);  // NULL in musl
+  int (*dl_iterate_phdr)(int (*visit)(struct dl_phdr_info*, size_t, void*), void* argument);
+  int (*pthread_setcancelstate)(int state, int* before);
+  int* (*errno_location)(void);
+};
+
+// NULL only where the C library cannot be found. Allocates nothing, takes no lock.
+const struct tp_c_library* tp_c_library(void);
+
+// The first function `name` of the objects behind this library in load order, among those that the program
+// started with: what the program's call would reach if this library did not define it. Looks it up each time.
+void* tp_function_behind_ours(const char* name);
