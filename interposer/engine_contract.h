@@ -1,13 +1,15 @@
 // Engine contract: what the preloaded library and the engine it loads know of each other. C, no dependency.
 #pragma once
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-enum { TILEPRESS_ENGINE_VERSION = 7 };
+enum { TILEPRESS_ENGINE_VERSION = 8 };
 
 enum TilepressApi { TILEPRESS_EGL, TILEPRESS_GLX, TILEPRESS_OSMESA, TILEPRESS_API_COUNT };
 
@@ -84,6 +86,8 @@ struct TilepressEngine {
 struct TilepressHost {
   uint32_t version;
   void* (*dlsym)(void* handle, const char* name);  // the real one
+  // Copies the path of the library that holds `address`. False if it is the program itself or does not fit.
+  bool (*path_of_object)(const void* address, char* path, size_t size);
 };
 
 // The one symbol the engine exports. NULL if the versions do not fit.

@@ -7,9 +7,9 @@ namespace tilepress {
 
 LibrarySymbols::LibrarySymbols(const TilepressHost& host, const TilepressPresent& present)
     : dlsym_(host.dlsym), driver_look_up_(present.look_up) {
-  Dl_info where;
-  if (dladdr(present.real, &where) != 0)
-    handle_ = dlopen(where.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
+  char path[4096];
+  if (host.path_of_object(present.real, path, sizeof path))
+    handle_ = dlopen(path, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
 }
 
 void* LibrarySymbols::find(const char* name) const {

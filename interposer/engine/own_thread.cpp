@@ -7,8 +7,33 @@
 #include <cstddef>
 #include <utility>
 
+#if !defined(__SANITIZE_THREAD__)
+// A program of the thread sanitizer defines these. The sanitizer does not see how the driver's threads synchronize
+// and would report what this library calls in the driver as races.
+extern "C" {
+[[gnu::weak]] void AnnotateIgnoreReadsBegin(const char* file, int line);
+[[gnu::weak]] void AnnotateIgnoreReadsEnd(const char* file, int line);
+[[gnu::weak]] void AnnotateIgnoreWritesBegin(const char* file, int line);
+[[gnu::weak]] void AnnotateIgnoreWritesEnd(const char* file, int line);
+}
+#endif
+
 namespace tilepress {
 namespace {
+
+/// While it lives, the thread sanitizer of the program looks past this thread.
+struct IgnoredRaces {
+#if !defined(__SANITIZE_THREAD__)
+  IgnoredRaces() {
+    if (AnnotateIgnoreReadsBegin != nullptr) AnnotateIgnoreReadsBegin(__FILE__, __LINE__);
+    if (AnnotateIgnoreWritesBegin != nullptr) AnnotateIgnoreWritesBegin(__FILE__, __LINE__);
+  }
+  ~IgnoredRaces() {
+    if (AnnotateIgnoreReadsEnd != nullptr) AnnotateIgnoreReadsEnd(__FILE__, __LINE__);
+    if (AnnotateIgnoreWritesEnd != nullptr) AnnotateIgnoreWritesEnd(__FILE__, __LINE__);
+  }
+#endif
+};
 
 constexpr size_t kStackBytes = size_t{8} << 20, kGuardBytes = size_t{64} << 10;
 
@@ -45,6 +70,7 @@ bool OwnThread::start(const char* name, std::function<void()> work) {
 }
 
 void* OwnThread::run(void* work) {
+  [[maybe_unused]] const IgnoredRaces ignored;
   (*static_cast<std::function<void()>*>(work))();
   return nullptr;
 }

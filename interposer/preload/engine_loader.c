@@ -47,7 +47,7 @@ static void load(void) {
     return;
   }
   TilepressEngineEntry entry = (TilepressEngineEntry)library->dlsym(opened, "tilepress_engine");
-  static struct TilepressHost host = {TILEPRESS_ENGINE_VERSION, NULL};
+  static struct TilepressHost host = {TILEPRESS_ENGINE_VERSION, NULL, tp_path_of_object};
   host.dlsym = library->dlsym;
   const struct TilepressEngine* engine = entry != NULL ? entry(&host) : NULL;
   if (engine == NULL) report("of another version");

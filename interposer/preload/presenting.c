@@ -14,6 +14,21 @@ void* (*tp_driver_lookup[TILEPRESS_API_COUNT])(const char* name);
 // Depth of presenting calls on this thread. A driver or another shim may present through a hooked function.
 static __thread int depth __attribute__((tls_model("initial-exec")));
 
+// A program of the thread sanitizer defines these. The sanitizer does not see how the driver's threads synchronize:
+// it would report what the engine calls in the driver as races, and the program would end with its status.
+#define WEAK __attribute__((weak))
+extern WEAK void AnnotateIgnoreReadsBegin(const char* file, int line);
+extern WEAK void AnnotateIgnoreReadsEnd(const char* file, int line);
+extern WEAK void AnnotateIgnoreWritesBegin(const char* file, int line);
+extern WEAK void AnnotateIgnoreWritesEnd(const char* file, int line);
+
+static void ignore_races(bool begin) {
+  void (*const reads)(const char*, int) = begin ? AnnotateIgnoreReadsBegin : AnnotateIgnoreReadsEnd;
+  void (*const writes)(const char*, int) = begin ? AnnotateIgnoreWritesBegin : AnnotateIgnoreWritesEnd;
+  if (reads != NULL) reads(__FILE__, __LINE__);
+  if (writes != NULL) writes(__FILE__, __LINE__);
+}
+
 // What the engine's work must not change.
 struct thread_state {
   int error, cancel_state;
@@ -24,12 +39,14 @@ static struct thread_state save_thread(void) {
   const struct tp_c_library* library = tp_c_library();
   struct thread_state state = {*library->errno_location(), 0};
   library->pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &state.cancel_state);
+  ignore_races(true);
   return state;
 }
 
 static void restore_thread(struct thread_state state) {
   const struct tp_c_library* library = tp_c_library();
   int disabled;
+  ignore_races(false);
   library->pthread_setcancelstate(state.cancel_state, &disabled);
   *library->errno_location() = state.error;
 }

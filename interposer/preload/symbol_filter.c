@@ -8,6 +8,7 @@
 #include "elf_symbols.h"
 #include "entry_points.h"
 #include "gl_hooks.h"
+#include "plain_text.h"
 #include "session_file.h"
 
 // What the trampoline does next: jump to the real function with stack and registers as its caller left them,
@@ -51,12 +52,29 @@ static void* look_past_us(void* handle, const char* name, const char* version, c
   return look_up(RTLD_NEXT, name, version);  // nothing, and dlerror says so
 }
 
+// Our own exports, also where the program defines functions of these names.
+extern __attribute__((visibility("hidden"))) char tp_dlsym[], tp_dlvsym[];
+
+// A dlsym of the program's own finds the one beneath with dlvsym, because the C library's has a version. Ours has
+// none and would be passed by: it stands in for what it forwards to.
+static void* own_lookup(void* handle, const char* name, const char* version, const void* caller) {
+  if (version == NULL || handle != RTLD_NEXT || name == NULL || !tp_starts_with(name, "dl")) return NULL;
+  const bool plain = tp_compare(name, "dlsym") == 0;
+  if ((!plain && tp_compare(name, "dlvsym") != 0) || !next_is_ours(caller)) return NULL;
+  const struct tp_c_library* library = tp_c_library();
+  void* const beneath = plain ? (void*)library->next_dlsym : (void*)library->next_dlvsym;
+  if (library->dlvsym(handle, name, version) != beneath) return NULL;
+  return plain ? tp_dlsym : tp_dlvsym;
+}
+
 static struct tp_verdict decide(void* handle, const char* name, const char* version, const void* caller,
                                 void* real_function) {
   const struct tp_verdict forward = {real_function, NULL};
+  if (real_function == NULL) return forward;
+  void* const own = own_lookup(handle, name, version, caller);
+  if (own != NULL) return (struct tp_verdict){NULL, own};
   const int entry = tp_find_entry(name), gl = entry < 0 ? tp_find_gl(name) : -1;
   if (entry < 0 && (gl < 0 || !tp_gl_concerns(gl))) return forward;
-  if (real_function == NULL) return forward;
   void* real;
   if (handle == RTLD_NEXT) {
     if (!next_is_ours(caller)) return forward;

@@ -112,6 +112,10 @@ bool add_shim_environment(std::map<std::string, std::string>& environment, ShimR
   if (road != ShimRoad::kGlvnd) {
     const std::string present = variable("LD_PRELOAD");
     environment["LD_PRELOAD"] = present.empty() ? preload_library : preload_library + ":" + present;
+    // The address sanitizer's shared runtime refuses a process that has another library before it, without this
+    // flag. The preloaded library gives the flag too, unless the program has default options of its own.
+    const std::string asan = variable("ASAN_OPTIONS");
+    environment["ASAN_OPTIONS"] = "verify_asan_link_order=0" + (asan.empty() ? "" : ":" + asan);
     if (road == ShimRoad::kPreload) return true;
   }
   const fs::path folder = vendor_folder(preload_library);
