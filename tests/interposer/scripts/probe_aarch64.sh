@@ -15,7 +15,8 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 
 flags=(-std=gnu11 -O2 -fPIC -Wall -Wextra -Werror -fvisibility=hidden -I"$root" -I"$root/interposer")
-$compiler "${flags[@]}" -fno-optimize-sibling-calls -shared "$root"/interposer/preload/*.c "$root"/interposer/preload/*.S \
+$compiler "${flags[@]}" -ffreestanding -fno-tree-loop-distribute-patterns -fno-stack-protector \
+  -fno-optimize-sibling-calls -mno-outline-atomics -nostartfiles -shared "$root"/interposer/preload/*.c "$root"/interposer/preload/*.S \
   -Wl,--version-script="$root/interposer/preload/preload.map" -Wl,-z,defs -ldl -lpthread -o libtilepress-preload.so
 $compiler -fPIC -shared -Wl,-soname,libEGL.so.1 "$programs/stub_egl.c" -o libEGL.so.1
 $compiler -fPIC -shared "$programs/next_second.c" -o libnext_second.so
