@@ -12,6 +12,8 @@
 
 namespace tilepress {
 
+class Pipe;
+
 struct FrameSize {
   uint32_t width = 0, height = 0;
   bool operator==(const FrameSize&) const = default;
@@ -27,27 +29,27 @@ struct ImageFrame {
 };
 
 /// The frames of the files in the order given. A file with several images (an animation, a movie, pages)
-/// gives as many frames; "-" is standard input with raw RGBA frames one after the other, as many as come. Not
-/// thread-safe.
+/// gives as many frames. A pipe, or "-" for standard input, holds raw RGBA frames, as many as come, or a file
+/// that is read once. Not thread-safe.
 class ImageFrames {
  public:
   ImageFrames();
   ~ImageFrames();
   ImageFrames(ImageFrames&&) noexcept;
-  /// Reads every file's header, decodes nothing. Without `raw_size` there are no raw files. False and one
+  /// Reads every file's header. Without `raw_size` there are no raw files. False and one
   /// line in `error` if a file is missing, unreadable, of a kind that would have to be narrowed (more than 8
   /// bits a channel), or not of the size of the first.
   bool open(const std::vector<std::string>& paths, std::optional<FrameSize> raw_size, std::string& error);
 
-  /// The same frames, to be read by another thread. Not for standard input.
+  /// The same frames, to be read by another thread. Not if streamed().
   ImageFrames another() const;
 
   FrameSize size() const { return size_; }
   /// kRgba8 if any image has alpha, else kRgbx8.
   PixelFormat format() const { return format_; }
-  /// Nothing when frames come from standard input.
+  /// Nothing if streamed().
   std::optional<uint64_t> count() const;
-  /// True if frames come from standard input: they must be read in order, each once.
+  /// True if any frames come from a pipe, a movie or an animation: they must be read in order, each once.
   bool streamed() const { return streamed_; }
 
   enum class Outcome { kFrame, kEnd, kFailed };
@@ -57,12 +59,18 @@ class ImageFrames {
  private:
   struct Source;
   struct Reader;
-  bool open_image(const std::string& path, std::string& error);
+  bool open_image(const std::string& name, const std::string& path, std::shared_ptr<Pipe> kept,
+                  std::string& error);
   bool open_raw(const std::string& path, std::string& error);
+  bool open_pipe(const std::string& path, bool raw_allowed, std::string& error);
   bool accept(const std::string& name, FrameSize size, std::string& error);
-  Outcome read_stream(ImageFrame& out, std::string& error);
+  Outcome read_raw(const Source& source, ImageFrame& out, std::string& error);
+  Outcome read_image(const Source& source, ImageFrame& out, std::string& error);
+  Outcome read_source(const Source& source, ImageFrame& out, std::string& error);
+  Outcome read_next(ImageFrame& out, std::string& error);
 
-  std::vector<Source> sources_;     ///< one per frame
+  std::vector<Source> sources_;     ///< one per frame unless streamed
+  size_t next_source_ = 0;          ///< if streamed
   std::unique_ptr<Reader> reader_;  ///< the file last opened
   FrameSize size_;
   PixelFormat format_ = PixelFormat::kRgbx8;

@@ -108,7 +108,7 @@ SurfaceView view_of(const ImageFrames& images, const ImageFrame& frame) {
           images.format(),     ByteOrder::kRgba};
 }
 
-/// Frames from standard input: in order, each once, their number not known before.
+/// Frames of pipes, movies and animations: in order, each once, their number not known before.
 bool process_stream(ImageFrames& images, const FramesOptions& options, RowSink& sink, CdfFile& cdf,
                     RunRecord& record, ProgressLine& progress, std::string& error) {
   SurfaceEngine engine(options.run.schemes, options.run.model);
@@ -276,7 +276,11 @@ int verb_frames(int argc, char** argv) {
       std::fprintf(stderr, "  rows: %s/schemes.csv and frames.csv\n", options.run.output.c_str());
   }
   if (!good) return fail(kExitFailed, error);
-  if (record.counts.captured == 0) return fail(kExitNothingCaptured, "no frame came on standard input");
+  if (record.counts.captured == 0)
+    return fail(kExitNothingCaptured, record.counts.seen == 0
+                                          ? "no frame came"
+                                          : "--frames and --every select none of the frames 0.." +
+                                                std::to_string(record.counts.seen - 1));
   return kExitDone;
 }
 

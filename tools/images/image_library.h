@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tilepress {
@@ -13,20 +14,31 @@ namespace tilepress {
 /// One image of a file.
 struct ImageHeader {
   uint32_t width = 0, height = 0, channels = 0;
-  std::string sample_type;  ///< "uint8", "half", ...
-  bool volume = false;
+  std::string refusal = {};  ///< why the pixels cannot be taken as they are stored; empty if they can
 };
+
+/// The refusal of samples of `type` ("uint16", "half", ...), of more than 8 bits.
+inline std::string deep_refusal(const std::string& type) {
+  return "has " + type + " channels; only 8 bits a channel are taken, nothing is narrowed";
+}
 
 /// An open file of one or more images. Not thread-safe.
 class ImageFile {
  public:
   virtual ~ImageFile() = default;
-  /// "png", "jpeg", ...
-  virtual std::string kind() const = 0;
-  /// False: the file has no such image.
-  virtual bool header(uint32_t image, ImageHeader& out) = 0;
-  /// Decodes to 8 bits a channel, rows from the top, tight, alpha as stored. False and a reason, maybe empty.
+  /// False: the file has no such image; with a reason if the file is damaged there. Images of a sequence have
+  /// one header, that of image 0.
+  virtual bool header(uint32_t image, ImageHeader& out, std::string& reason) = 0;
+  /// Decodes to 8 bits a channel, rows from the top, tight, alpha as stored. `out` has room for 4 channels.
+  /// False and a reason, maybe empty. Not for a sequence.
   virtual bool read(uint32_t image, uint32_t channels, std::byte* out, std::string& reason) = 0;
+
+  /// True for a movie or an animation: its frames are decoded in order, each once, and counted by that.
+  virtual bool is_sequence() const { return false; }
+  /// Decodes the next frame of a sequence to R,G,B,A. False: the last one has been read, or a reason.
+  virtual bool next(std::byte*, std::string&) { return false; }
+  /// One line about what of the file is not taken; empty if all is.
+  virtual std::string left_out() const { return {}; }
 };
 
 /// Pixels for a PNG.
@@ -42,8 +54,10 @@ struct PngPixels {
 class ImageLibrary {
  public:
   virtual ~ImageLibrary() = default;
-  /// Null and a reason, maybe empty.
+  /// Opens any image or movie but a still PNG. Null and a reason, maybe empty.
   virtual std::unique_ptr<ImageFile> open(const std::string& path, std::string& reason) const = 0;
+  /// Whether a file that begins like this may be a movie; some 64 KiB tell.
+  virtual bool may_be_movie(std::string_view start) const = 0;
   /// False and a reason.
   virtual bool write_png(const std::string& path, const PngPixels& pixels, std::string& reason) const = 0;
   /// The bytes of a PNG file, as small as can be; none on failure.

@@ -1,8 +1,14 @@
-// OIIO images: the image library by OpenImageIO, as a module.
+// OIIO images: the image library, as a module: each kind of file has its reader, OpenImageIO the rest.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include "images/av_still.h"
+#include "images/gif_image.h"
+#include "images/image_kind.h"
 #include "images/image_library.h"
+#include "images/jpeg_image.h"
+#include "images/movie_file.h"
+#include "images/webp_image.h"
 
 namespace tilepress {
 namespace {
@@ -10,9 +16,8 @@ namespace {
 class OiioFile final : public ImageFile {
  public:
   explicit OiioFile(OIIO::ImageInput::unique_ptr input) : input_(std::move(input)) {}
-  std::string kind() const override { return input_->format_name(); }
 
-  bool header(uint32_t image, ImageHeader& out) override {
+  bool header(uint32_t image, ImageHeader& out, std::string&) override {
     if (!input_->seek_subimage(static_cast<int>(image), 0)) {
       input_->geterror();  // a seek past the last image leaves one
       return false;
@@ -21,8 +26,7 @@ class OiioFile final : public ImageFile {
     out = {.width = static_cast<uint32_t>(spec.width),
            .height = static_cast<uint32_t>(spec.height),
            .channels = static_cast<uint32_t>(spec.nchannels),
-           .sample_type = spec.format.c_str(),
-           .volume = spec.depth > 1};
+           .refusal = refusal(spec)};
     return true;
   }
 
@@ -35,19 +39,43 @@ class OiioFile final : public ImageFile {
   }
 
  private:
+  static std::string refusal(const OIIO::ImageSpec& spec) {
+    if (spec.format != OIIO::TypeDesc::UINT8) return deep_refusal(spec.format.c_str());
+    if (spec.depth > 1) return "is a volume";
+    // Of these TIFFs OpenImageIO computes RGB: inks (5) and Lab (8 to 10).
+    const int photometric = spec.get_int_attribute("tiff:PhotometricInterpretation", 2);
+    if (photometric == 5 || (photometric >= 8 && photometric <= 10)) return "is not gray or RGB";
+    return {};
+  }
   OIIO::ImageInput::unique_ptr input_;
 };
 
 class OiioLibrary final : public ImageLibrary {
  public:
   std::unique_ptr<ImageFile> open(const std::string& path, std::string& reason) const override {
-    OIIO::ImageSpec wishes;
-    wishes.attribute("oiio:UnassociatedAlpha", 1);
-    auto input = OIIO::ImageInput::open(path, &wishes);
-    if (input) return std::make_unique<OiioFile>(std::move(input));
-    reason = OIIO::geterror();
+    const ImageKind kind = image_kind_of_file(path.c_str());
+    switch (kind.reader) {
+      case ImageReader::kJpeg:
+        return open_jpeg(path, reason);
+      case ImageReader::kGif:
+        return open_gif(path, reason);
+      case ImageReader::kWebp:
+        return open_webp(path, reason);
+      case ImageReader::kAvStill:
+        return open_av_still(path, kind.name, reason);
+      case ImageReader::kOiio:
+        return open_oiio(path, kind.name, reason);
+      case ImageReader::kRefused:
+        reason = std::string(kind.name) + " files are not read; convert it to PNG";
+        return nullptr;
+      case ImageReader::kPng:  // an animated one
+      case ImageReader::kMovie:
+        return open_movie(path, reason);
+    }
     return nullptr;
   }
+
+  bool may_be_movie(std::string_view start) const override { return is_movie_start(start); }
 
   bool write_png(const std::string& path, const PngPixels& pixels, std::string& reason) const override {
     const auto output = OIIO::ImageOutput::create("png");
@@ -71,6 +99,15 @@ class OiioLibrary final : public ImageLibrary {
   }
 
  private:
+  static std::unique_ptr<ImageFile> open_oiio(const std::string& path, std::string_view plugin,
+                                              std::string& reason) {
+    OIIO::ImageSpec wishes, spec;
+    wishes.attribute("oiio:UnassociatedAlpha", 1);
+    auto input = OIIO::ImageInput::create(std::string(plugin));
+    if (input && input->open(path, spec, wishes)) return std::make_unique<OiioFile>(std::move(input));
+    reason = input ? input->geterror() : OIIO::geterror();
+    return nullptr;
+  }
   static OIIO::TypeDesc type_of(const PngPixels& pixels) {
     return pixels.channel_bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
   }
