@@ -95,7 +95,7 @@ std::optional<int> parse(int argc, char** argv, BenchOptions& options) {
   add_model_options(app, options.run);
   app.add_option("-o,--output", options.csv_path, "CSV file; - for standard output (default: none)")
       ->type_name("FILE");
-  app.add_option("IMAGE", options.images, "What OpenImageIO reads (8 bits a channel), or raw .rgba files")
+  app.add_option("IMAGE", options.images, "Images or movies of 8 bits a channel, or raw .rgba files")
       ->type_name("...")
       ->required();
   add_size_option(app, "size", options.size, "Size of raw .rgba frames");

@@ -172,7 +172,7 @@ int verb_pack(int argc, char** argv) {
   PackOptions options;
   options.run.output = "-";
   set_run_option(options.run, "scheme", "vdcp", options.output);
-  app.add_option("IMAGE", options.images, "What OpenImageIO reads (8 bits a channel), or raw files")
+  app.add_option("IMAGE", options.images, "Images or movies of 8 bits a channel, or raw files")
       ->type_name("...")
       ->required();
   app.add_option("-o,--output", options.output, "File to write")->type_name("FILE")->required();

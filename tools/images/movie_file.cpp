@@ -2,10 +2,12 @@
 #include "images/movie_file.h"
 
 #include <cstring>
+#include <fstream>
 #include <vector>
 
 extern "C" {
 #include <libavformat/avformat.h>
+#include <libavutil/intreadwrite.h>
 }
 
 #include "images/av_pixels.h"
@@ -23,9 +25,27 @@ struct CloseInput {
   void operator()(AVFormatContext* input) const { avformat_close_input(&input); }
 };
 
+/// Frames of a PNG that is whole; 0 if it is cut off. A picture before the first frame's control is none.
+uint32_t count_apng_frames(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  uint32_t frames = 0;
+  file.seekg(8);
+  for (unsigned char head[8]; file.read(reinterpret_cast<char*>(head), sizeof head);) {
+    const uint32_t bytes = AV_RB32(head);
+    const std::string_view name(reinterpret_cast<const char*>(head) + 4, 4);
+    frames += name == "fcTL";
+    file.seekg(bytes + 3ll, std::ios::cur);  // to the last byte of the sum of the chunk
+    if (file.get() == std::char_traits<char>::eof()) return 0;
+    if (name == "IEND") return frames;
+  }
+  return 0;
+}
+
 class MovieFile final : public ImageFile {
  public:
-  bool open(const std::string& path, std::string& reason) {
+  /// `apng_frames`: of an animated PNG, all of which must come, or 0.
+  bool open(const std::string& path, uint32_t apng_frames, std::string& reason) {
+    apng_frames_ = apng_frames;
     av_begin_messages();
     AVFormatContext* input = avformat_alloc_context();
     if (input == nullptr) return false;
@@ -128,6 +148,8 @@ class MovieFile final : public ImageFile {
   bool ended(std::string& reason) {
     if (av_demuxer_complained())
       reason = "is damaged or cut off: " + av_reason(0);
+    else if (apng_frames_ != 0 && count_ != apng_frames_)
+      reason = "gives " + std::to_string(count_) + " of its " + std::to_string(apng_frames_) + " frames";
     else if (count_ == 0)
       reason = "holds no frame that can be decoded";
     return false;
@@ -153,13 +175,22 @@ class MovieFile final : public ImageFile {
   int stream_ = -1;
   bool key_seen_ = false;
   uint64_t count_ = 0;
+  uint32_t apng_frames_ = 0;
 };
 
 }  // namespace
 
 std::unique_ptr<ImageFile> open_movie(const std::string& path, std::string& reason) {
   auto movie = std::make_unique<MovieFile>();
-  if (!movie->open(path, reason)) return nullptr;
+  if (!movie->open(path, 0, reason)) return nullptr;
+  return movie;
+}
+
+std::unique_ptr<ImageFile> open_apng(const std::string& path, std::string& reason) {
+  const uint32_t frames = count_apng_frames(path);
+  if (frames == 0) reason = "is cut off";
+  auto movie = std::make_unique<MovieFile>();
+  if (frames == 0 || !movie->open(path, frames, reason)) return nullptr;
   return movie;
 }
 

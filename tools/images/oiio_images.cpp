@@ -69,6 +69,7 @@ class OiioLibrary final : public ImageLibrary {
         reason = std::string(kind.name) + " files are not read; convert it to PNG";
         return nullptr;
       case ImageReader::kPng:  // an animated one
+        return open_apng(path, reason);
       case ImageReader::kMovie:
         return open_movie(path, reason);
     }
