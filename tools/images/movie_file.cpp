@@ -1,6 +1,7 @@
 // Movie file: every frame that the decoder gives, each once, whatever its time stamp.
 #include "images/movie_file.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <vector>
@@ -39,6 +40,25 @@ uint32_t count_apng_frames(const std::string& path) {
     if (name == "IEND") return frames;
   }
   return 0;
+}
+
+/// Whether a Matroska or WebM file is shorter than its segment says; its demultiplexer does not mind.
+bool is_cut_matroska(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto file_bytes = static_cast<uint64_t>(std::max<std::streamoff>(file.tellg(), 0));
+  std::string start(static_cast<size_t>(std::min<uint64_t>(file_bytes, 4096)), '\0');
+  file.seekg(0);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  const size_t at = start.starts_with("\x1A\x45\xDF\xA3") ? start.find("\x18\x53\x80\x67") : std::string::npos;
+  if (at == std::string::npos || at + 4 >= start.size()) return false;
+  // A size of n bytes begins with n - 1 zero bits and a one; all ones after that: not known.
+  uint32_t size_bytes = 1;
+  while (size_bytes <= 8 && (static_cast<uint8_t>(start[at + 4]) >> (8 - size_bytes)) == 0) ++size_bytes;
+  if (size_bytes > 8 || at + 4 + size_bytes > start.size()) return false;
+  uint64_t size = static_cast<uint8_t>(start[at + 4]) & (0xFFu >> size_bytes);
+  for (uint32_t i = 1; i < size_bytes; ++i) size = size << 8 | static_cast<uint8_t>(start[at + 4 + i]);
+  const uint64_t unknown = (uint64_t{1} << (7 * size_bytes)) - 1;
+  return size != unknown && size > file_bytes - (at + 4 + size_bytes);
 }
 
 class MovieFile final : public ImageFile {
@@ -182,7 +202,9 @@ class MovieFile final : public ImageFile {
 
 std::unique_ptr<ImageFile> open_movie(const std::string& path, std::string& reason) {
   auto movie = std::make_unique<MovieFile>();
-  if (!movie->open(path, 0, reason)) return nullptr;
+  const bool cut = is_cut_matroska(path);
+  if (cut) reason = "is cut off";
+  if (cut || !movie->open(path, 0, reason)) return nullptr;
   return movie;
 }
 
