@@ -2,6 +2,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <fstream>
+
 #include "images/av_still.h"
 #include "images/gif_image.h"
 #include "images/image_kind.h"
@@ -12,6 +14,34 @@
 
 namespace tilepress {
 namespace {
+
+/// Whether the chain of a TIFF's pages leads out of the file: OpenImageIO takes that for its end.
+bool is_cut_tiff(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  unsigned char start[4] = {};
+  file.read(reinterpret_cast<char*>(start), sizeof start);
+  const bool big_endian = start[0] == 'M', wide = start[2] + start[3] == 43;
+  const auto number = [&](uint32_t bytes) {
+    uint64_t value = 0;
+    for (uint32_t i = 0; i < bytes; ++i) {
+      const auto byte = static_cast<uint64_t>(static_cast<unsigned char>(file.get()));
+      value = big_endian ? value << 8 | byte : value | byte << (8 * i);
+    }
+    return value;
+  };
+  if (wide) file.seekg(8);
+  constexpr uint32_t kMostPages = 65536;  // a chain may lead back
+  for (uint32_t page = 0; page < kMostPages; ++page) {
+    const uint64_t at = number(wide ? 8 : 4);
+    if (!file) return true;
+    if (at == 0) return false;
+    file.seekg(static_cast<std::streamoff>(at));
+    const uint64_t entries = number(wide ? 8 : 2);
+    if (!file || entries > UINT16_MAX) return true;
+    file.seekg(static_cast<std::streamoff>(entries * (wide ? 20 : 12)), std::ios::cur);
+  }
+  return false;
+}
 
 class OiioFile final : public ImageFile {
  public:
@@ -104,6 +134,10 @@ class OiioLibrary final : public ImageLibrary {
                                               std::string& reason) {
     OIIO::ImageSpec wishes, spec;
     wishes.attribute("oiio:UnassociatedAlpha", 1);
+    if (plugin == "tiff" && is_cut_tiff(path)) {
+      reason = "is cut off";
+      return nullptr;
+    }
     auto input = OIIO::ImageInput::create(std::string(plugin));
     if (input && input->open(path, spec, wishes)) return std::make_unique<OiioFile>(std::move(input));
     reason = input ? input->geterror() : OIIO::geterror();
