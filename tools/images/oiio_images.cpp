@@ -15,8 +15,8 @@
 namespace tilepress {
 namespace {
 
-/// Whether the chain of a TIFF's pages leads out of the file: OpenImageIO takes that for its end.
-bool is_cut_tiff(const std::string& path) {
+/// Pages of a TIFF; 0 if their chain leads out of the file, which OpenImageIO takes for its end.
+uint32_t count_tiff_pages(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   unsigned char start[4] = {};
   file.read(reinterpret_cast<char*>(start), sizeof start);
@@ -33,23 +33,25 @@ bool is_cut_tiff(const std::string& path) {
   constexpr uint32_t kMostPages = 65536;  // a chain may lead back
   for (uint32_t page = 0; page < kMostPages; ++page) {
     const uint64_t at = number(wide ? 8 : 4);
-    if (!file) return true;
-    if (at == 0) return false;
+    if (!file) return 0;
+    if (at == 0) return page;
     file.seekg(static_cast<std::streamoff>(at));
     const uint64_t entries = number(wide ? 8 : 2);
-    if (!file || entries > UINT16_MAX) return true;
+    if (!file || entries > UINT16_MAX) return 0;
     file.seekg(static_cast<std::streamoff>(entries * (wide ? 20 : 12)), std::ios::cur);
   }
-  return false;
+  return 0;
 }
 
 class OiioFile final : public ImageFile {
  public:
-  explicit OiioFile(OIIO::ImageInput::unique_ptr input) : input_(std::move(input)) {}
+  OiioFile(OIIO::ImageInput::unique_ptr input, uint32_t pages)
+      : input_(std::move(input)), pages_(pages) {}
 
-  bool header(uint32_t image, ImageHeader& out, std::string&) override {
+  bool header(uint32_t image, ImageHeader& out, std::string& reason) override {
     if (!input_->seek_subimage(static_cast<int>(image), 0)) {
       input_->geterror();  // a seek past the last image leaves one
+      if (image < pages_) reason = "is damaged or cut off: page " + std::to_string(image) + " cannot be read";
       return false;
     }
     const OIIO::ImageSpec spec = input_->spec(static_cast<int>(image), 0);
@@ -78,6 +80,7 @@ class OiioFile final : public ImageFile {
     return {};
   }
   OIIO::ImageInput::unique_ptr input_;
+  const uint32_t pages_;  ///< at least so many images
 };
 
 class OiioLibrary final : public ImageLibrary {
@@ -134,12 +137,13 @@ class OiioLibrary final : public ImageLibrary {
                                               std::string& reason) {
     OIIO::ImageSpec wishes, spec;
     wishes.attribute("oiio:UnassociatedAlpha", 1);
-    if (plugin == "tiff" && is_cut_tiff(path)) {
+    const uint32_t pages = plugin == "tiff" ? count_tiff_pages(path) : 1;
+    if (pages == 0) {
       reason = "is cut off";
       return nullptr;
     }
     auto input = OIIO::ImageInput::create(std::string(plugin));
-    if (input && input->open(path, spec, wishes)) return std::make_unique<OiioFile>(std::move(input));
+    if (input && input->open(path, spec, wishes)) return std::make_unique<OiioFile>(std::move(input), pages);
     reason = input ? input->geterror() : OIIO::geterror();
     return nullptr;
   }
