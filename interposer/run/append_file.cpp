@@ -7,6 +7,8 @@
 
 #include <cerrno>
 
+#include "run/run_lock.h"
+
 namespace tilepress {
 namespace {
 
@@ -51,6 +53,15 @@ bool AppendFile::create(const std::string& path, const std::string& header) {
   return false;
 }
 
+void AppendFile::hold_lock() {
+  holds_lock_ = true;
+  if (is_open()) hold_run_lock(fd_);
+}
+
+void AppendFile::release_lock_of_program() {
+  if (is_open() && is_this_file()) release_program_lock(fd_);
+}
+
 bool AppendFile::append(const std::string& record) {
   if (!is_this_file()) {
     fd_ = open_high(path_, 0);
@@ -60,6 +71,7 @@ bool AppendFile::append(const std::string& record) {
       errno = EBADF;
       return false;
     }
+    if (holds_lock_) hold_run_lock(fd_);
   }
   const off_t before = lseek(fd_, 0, SEEK_END);
   size_t done = 0;

@@ -24,11 +24,16 @@ class AppendFile {
   /// set.
   bool append(const std::string& record);
   bool is_open() const { return fd_ >= 0; }
+  /// Takes the run lock (run_lock.h) with this file, and again whenever it has to be opened anew.
+  void hold_lock();
+  /// Releases the part of the run lock that stands for the program.
+  void release_lock_of_program();
 
  private:
   bool is_this_file() const;
   std::string path_;
   int fd_ = -1;
+  bool holds_lock_ = false;
   dev_t device_ = 0;
   ino_t inode_ = 0;
 };

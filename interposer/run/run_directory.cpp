@@ -57,7 +57,12 @@ bool RunWriter::create(const std::string& path, const RunInfo& info, const RunOp
     error_ = path + ": " + std::strerror(errno);
     return false;
   }
+  frames_->hold_lock();
   return write_json("running", "");
+}
+
+void RunWriter::program_has_ended() {
+  frames_->release_lock_of_program();
 }
 
 bool RunWriter::append(const FrameStatistics& frame) {

@@ -59,6 +59,8 @@ class RunWriter {
   /// May be called at any time; run.json follows within half a second or at finish().
   void set_counts(const RunCounts& counts, const RunCounts& targets = {});
   void set_info(const RunInfo& info);
+  /// The captured program is no more; only this writer still works on the run (run_lock.h).
+  void program_has_ended();
   /// state: "finished", or "failed" with the reason.
   bool finish(const std::string& state, const std::string& reason);
 
