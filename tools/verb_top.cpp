@@ -72,7 +72,7 @@ class CaptureList {
     for (const std::string& path : find_running_captures(folders_)) add(path);
     for (auto& [path, watch] : watches_) {
       LiveState state{};
-      watch->capture.ended = !capture_runs(path, watch->capture.now.pid);
+      watch->capture.ended = !capture_runs(path);
       if (!watch->reader.read(state)) continue;
       const auto now = Clock::now();
       watch->capture.before = watch->capture.now;

@@ -7,7 +7,7 @@
 
 #include <cerrno>
 
-#include "run/run_lock.h"
+#include "tilepress/run_lock.h"
 
 namespace tilepress {
 namespace {

@@ -1,5 +1,5 @@
 // Run lock: fcntl record locks, which every process that can open the file can test.
-#include "run/run_lock.h"
+#include "tilepress/run_lock.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 // Run lock: whoever asks about a run learns whether it has a writer, whatever process that is.
-#include "run/run_lock.h"
+#include "tilepress/run_lock.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,12 +1,10 @@
 // Running captures: found by the page that each keeps.
 #include "live/running_captures.h"
 
-#include <signal.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
 
+#include "tilepress/run_lock.h"
 #include "tilepress/live_page.h"
 
 namespace tilepress {
@@ -38,10 +36,9 @@ std::vector<std::string> find_running_captures(const std::vector<std::string>& f
   return out;
 }
 
-bool capture_runs(const std::string& run_path, int64_t pid) {
+bool capture_runs(const std::string& run_path) {
   std::error_code code;
-  return fs::exists(fs::path(run_path) / kLiveFile, code) &&
-         (kill(static_cast<pid_t>(pid), 0) == 0 || errno == EPERM);
+  return fs::exists(fs::path(run_path) / kLiveFile, code) && run_is_written(run_path);
 }
 
 }  // namespace tilepress

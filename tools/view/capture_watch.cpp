@@ -51,7 +51,7 @@ void CaptureWatch::attach_next() {
 
 bool CaptureWatch::refresh_numbers() {
   const auto now = Clock::now();
-  const bool ended = !capture_runs(capture_.path, capture_.now.pid);
+  const bool ended = !capture_runs(capture_.path);
   const bool news = ended != capture_.ended;
   capture_.ended = ended;
   if (now - read_at_ < kNumbersPeriod) return news;
