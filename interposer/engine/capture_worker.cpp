@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "interposer/engine/frame_dump.h"
+#include "interposer/run/descriptors.h"
 
 namespace tilepress {
 namespace {
@@ -61,6 +62,7 @@ void CaptureWorker::run() {
   // either.
   const sched_param none{};
   if (options_.on_full == OnFull::kDrop) sched_setscheduler(0, SCHED_IDLE, &none);
+  leave_descriptors_of_program();
   try {
     // The last turn comes after the queue was found closed: presents without a frame may have been counted
     // since the turn before.

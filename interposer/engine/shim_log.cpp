@@ -6,6 +6,8 @@
 
 #include <utility>
 
+#include "interposer/run/descriptors.h"
+
 namespace tilepress {
 namespace {
 
@@ -24,7 +26,9 @@ ShimLog::ShimLog(std::string path, std::string_view level)
 
 void ShimLog::write(LogLevel level, std::string_view text) const {
   if (path_.empty() || static_cast<int>(level) > threshold_) return;
-  const int file = open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+  // Creating comes second: in a folder like /tmp, O_CREAT may fail on a file that another user has made.
+  int file = open_above_streams(path_, O_WRONLY | O_APPEND);
+  if (file < 0) file = open_above_streams(path_, O_WRONLY | O_APPEND | O_CREAT);
   if (file < 0) return;
   const std::string line = "tilepress: " + std::string(text) + "\n";
   [[maybe_unused]] const ssize_t written = ::write(file, line.data(), line.size());

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 
+#include "run/descriptors.h"
 #include "tilepress/run_lock.h"
 
 namespace tilepress {
@@ -16,12 +17,7 @@ constexpr int kLowestDescriptor = 200;
 
 /// Opens with a high number if the process may have one.
 int open_high(const std::string& path, int flags) {
-  const int low = open(path.c_str(), flags | O_WRONLY | O_APPEND | O_CLOEXEC, 0644);
-  if (low < 0) return -1;
-  const int high = fcntl(low, F_DUPFD_CLOEXEC, kLowestDescriptor);
-  if (high < 0) return low;
-  close(low);
-  return high;
+  return open_above_streams(path, flags | O_WRONLY | O_APPEND, 0644, kLowestDescriptor);
 }
 
 }  // namespace

@@ -8,13 +8,14 @@
 #include <cerrno>
 #include <cstring>
 
+#include "run/descriptors.h"
 #include "tilepress/plane.h"
 
 namespace tilepress {
 namespace {
 
 bool write_file(const std::string& path, const std::string& bytes) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int file = open_above_streams(path, O_WRONLY | O_CREAT | O_TRUNC);
   if (file < 0) return false;
   size_t done = 0;
   while (done < bytes.size()) {

@@ -11,6 +11,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "run/descriptors.h"
 #include "tilepress/cost_model.h"
 
 namespace tilepress {
@@ -235,7 +236,7 @@ std::string finished_run_json(std::string_view text, const RunRecord& record, co
 
 bool replace_file(const std::string& path, std::string_view text, std::string& reason) {
   const std::string beside = path + ".tmp";
-  const int fd = open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const int fd = open_above_streams(beside, O_WRONLY | O_CREAT | O_TRUNC, 0644);
   bool good = fd >= 0;
   while (good && !text.empty()) {
     const ssize_t written = write(fd, text.data(), text.size());

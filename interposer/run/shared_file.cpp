@@ -8,10 +8,12 @@
 
 #include <cerrno>
 
+#include "run/descriptors.h"
+
 namespace tilepress {
 
 void* create_shared_file(const std::string& path, size_t bytes) {
-  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  const int file = open_above_streams(path, O_RDWR | O_CREAT | O_EXCL, 0644);
   if (file < 0) return nullptr;
   // posix_fallocate, not ftruncate: on a full disk a hole would end the program with SIGBUS at the first
   // store.

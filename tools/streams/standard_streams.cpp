@@ -38,7 +38,8 @@ ssize_t write_noting_errors(void*, const char* bytes, size_t count) {
 void occupy(int stream) {
   if (fcntl(stream, F_GETFD) >= 0) return;
   const int flags = (stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) | O_CLOEXEC;
-  if (open("/dev/null", flags) < 0) return;  // the lowest free number is `stream`
+  // The lowest free number is `stream`. A private root may have no /dev.
+  if (open("/dev/null", flags) < 0 && open("/", O_PATH | O_CLOEXEC) < 0) return;
 }
 
 }  // namespace
