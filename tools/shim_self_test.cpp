@@ -5,6 +5,7 @@
 
 #include "child_process.h"
 #include "session_folder.h"
+#include "temporary_folder.h"
 #include "tilepress/run_reader.h"
 
 namespace tilepress {
@@ -49,20 +50,22 @@ std::string judge(const SessionFolder& session, const ChildEnd& child) {
 
 SelfTestResult test_shim(const std::string& library, ShimRoad road) {
   SelfTestResult result;
+  TemporaryFolder folder;
   SessionFolder session;
   const std::string program = program_beside(library);
   if (program.empty()) {
     result.detail = "tilepress-self-test: not found beside " + library;
     return result;
   }
-  if (!session.create(result.detail)) return result;
+  if (!folder.create(result.detail) || !session.create(folder.path(), result.detail)) return result;
+  const std::string preloaded = preloadable(library, folder, result.detail);
   RunOptions options;
-  options.output = session.path() + "/out";
+  options.output = folder.path();
   options.log_file = session.log_path();
   options.model.verify = true;
   auto environment = to_environment(options);
   environment["TILEPRESS_SESSION"] = session.path();
-  if (!add_shim_environment(environment, road, session.preloadable(library), result.detail)) return result;
+  if (!add_shim_environment(environment, road, preloaded, result.detail)) return result;
   StartFailure failure{};
   const auto child = run_child({program}, environment, failure, 60);
   result.detail = child ? judge(session, *child) : failure.reason;

@@ -11,9 +11,9 @@
 #include "printable.h"
 #include "progress_line.h"
 #include "replay_tables.h"
-#include "session_folder.h"
 #include "shim_path.h"
 #include "streams/ending_signals.h"
+#include "temporary_folder.h"
 #include "tilepress/replay_batch.h"
 #include "trace_manifest.h"
 #include "verb.h"
@@ -204,9 +204,9 @@ int verb_replay(int argc, char** argv) {
   std::string looked, error;
   const auto shim = find_shim(kShimName, looked);
   if (!shim) return fail(kExitFailed, std::string(kShimName) + ": not found (looked at " + looked + ")");
-  SessionFolder session;
-  if (!session.create(error)) return fail(kExitFailed, error);
-  options.replay.shim = session.preloadable(*shim);
+  TemporaryFolder links;
+  options.replay.shim = preloadable(*shim, links, error);
+  if (options.replay.shim.empty()) return fail(kExitFailed, error);
   std::error_code code;
   fs::path output = fs::absolute(options.replay.run.output, code).lexically_normal();
   options.replay.run.output = output.has_filename() ? output.string() : output.parent_path().string();

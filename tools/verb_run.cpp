@@ -1,5 +1,4 @@
 // tilepress run: a program under the shim, its own input, output and exit status passed through.
-#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -19,6 +18,9 @@
 #include "shim_path.h"
 #include "streams/output_file.h"
 #include "summary_table.h"
+#include "temporary_folder.h"
+#include "tilepress/run_lock.h"
+#include "tilepress/session_mark.h"
 #include "tilepress/run_reader.h"
 #include "tilepress/shim_environment.h"
 #include "verb.h"
@@ -96,40 +98,64 @@ std::optional<int> parse_options(int argc, char** argv, LaunchOptions& options) 
   return std::nullopt;
 }
 
-/// Makes the output folder; false and one line in `error` if nothing can be written there. `made` = it was
-/// not there before.
-bool prepare_output(std::string& folder, bool& made, std::string& error) {
-  namespace fs = std::filesystem;
-  std::error_code code;
-  folder = fs::absolute(folder, code).lexically_normal().string();
-  made = fs::create_directories(folder, code);
-  if (!code && !fs::is_directory(folder, code)) code = std::make_error_code(std::errc::not_a_directory);
-  if (!code && access(folder.c_str(), W_OK | X_OK) != 0)
-    code = std::error_code(errno, std::generic_category());
-  if (code) error = folder + ": " + code.message();
-  return !code;
-}
+/// The output folder. If the launcher has made it, it goes again unless something is in it.
+class OutputFolder {
+ public:
+  OutputFolder() = default;
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  ~OutputFolder() {
+    std::error_code code;
+    if (made_) std::filesystem::remove(path_, code);
+  }
+  /// Makes `folder` absolute, and makes it. Returns false and one line in `error` if nothing can be written
+  /// there.
+  bool prepare(std::string& folder, std::string& error) {
+    namespace fs = std::filesystem;
+    std::error_code code;
+    fs::path path = fs::absolute(folder, code).lexically_normal();
+    if (!path.has_filename()) path = path.parent_path();
+    folder = path_ = path.string();
+    made_ = fs::create_directories(path, code);
+    if (!code && !fs::is_directory(path, code)) code = std::make_error_code(std::errc::not_a_directory);
+    if (!code && access(path_.c_str(), W_OK | X_OK) != 0)
+      code = std::error_code(errno, std::generic_category());
+    if (code) error = path_ + ": " + code.message();
+    return !code;
+  }
+
+ private:
+  std::string path_;
+  bool made_ = false;
+};
 
 std::optional<std::map<std::string, std::string>> child_environment(const LaunchOptions& options,
                                                                     const SessionFolder& session,
-                                                                    const std::string& shim, bool capture,
+                                                                    const std::string& library, bool capture,
                                                                     std::string& error) {
   auto environment = to_environment(options.run);
   environment["TILEPRESS_SESSION"] = session.path();
   environment["TILEPRESS_CAPTURE"] = capture ? "" : "off";
   environment["TILEPRESS_PRESENT_TIMES"] = options.measure_overhead ? session.path() : "";
-  if (!add_shim_environment(environment, *parse_shim_road(options.via), session.preloadable(shim), error))
+  if (!add_shim_environment(environment, *parse_shim_road(options.via), library, error))
     return std::nullopt;
   return environment;
 }
 
-/// How the run of process `pid` is to be closed, as far as the launcher knows.
-RunEnd end_of(pid_t pid, const ChildEnd& child) {
+/// Whether `process` is the one that the launcher has started. In another PID namespace any process may have
+/// its number. A process without /proc does not know its namespace.
+bool is_child(const CapturedProcess& process, const ChildEnd& child) {
+  return process.pid == child.pid &&
+         (process.pid_namespace == 0 || process.pid_namespace == own_pid_namespace());
+}
+
+/// How a run is to be closed, as far as the launcher knows. A run that ended normally says so itself.
+RunEnd end_of(const CapturedProcess& process, const ChildEnd& child) {
   RunEnd end;
-  if (pid == child.pid && child.signal) {
+  if (is_child(process, child) && child.signal) {
     end.state = "killed by signal " + std::to_string(*child.signal);
     end.signal = child.signal;
-  } else if (pid == child.pid) {
+  } else if (is_child(process, child)) {
     end.exit_status = child.exit_status;
   } else {
     end.state = "ended";
@@ -151,9 +177,9 @@ Harvest harvest(const SessionFolder& session, const ChildEnd& child, bool quiet)
   for (const CapturedProcess& process : session.captured()) {
     RunRecord record;
     std::string error;
-    const bool running = process.pid != child.pid && kill(process.pid, 0) == 0;
+    const bool running = !wait_for_writer(process.run_path, is_child(process, child));
     if (!read_run(process.run_path, record, error) ||
-        (!running && !close_run(end_of(process.pid, child), record, error))) {
+        (!running && !close_run(end_of(process, child), record, error))) {
       out.failures.push_back(error);
       continue;
     }
@@ -189,7 +215,19 @@ int report_nothing(const LaunchOptions& options, const SessionFolder& session, c
     std::fputs("  a program that draws and presents nothing: --trigger finish,flush,readpixels\n", stderr);
   const std::vector<std::string> seen = session.seen();
   for (const std::string& entry : seen) std::fprintf(stderr, "  seen: %s\n", entry.c_str());
-  if (seen.empty()) std::fputs("  seen: no process asked for any of them\n", stderr);
+  const std::vector<std::string> unreached = session.seen_from_afar();
+  for (const std::string& entry : unreached) std::fprintf(stderr, "  seen: %s\n", entry.c_str());
+  const char* folder = options.run.output.c_str();
+  if (!unreached.empty())
+    std::fprintf(stderr,
+                 "  these processes could not write to the session folder in %s: they have another root, /tmp "
+                 "or user.\n  Use -o with a folder that they see under the same path and may write\n",
+                 folder);
+  else if (seen.empty())
+    std::fprintf(stderr,
+                 "  seen: nothing: no process that reaches the session folder in %s asked for any of them.\n"
+                 "  A process in a container, or with another root, /tmp or user, may not reach it\n",
+                 folder);
   if (const std::string why = preload_obstacle(program_path); !why.empty())
     std::fprintf(stderr, "  %s: %s\n", program_path.c_str(), why.c_str());
   return kExitNothingCaptured;
@@ -209,10 +247,13 @@ std::optional<Launch> launch(const LaunchOptions& options, const std::string& sh
     status = fail(code, line);
     return std::nullopt;
   };
-  if (!session.create(error)) return abandon(kExitLauncherFailed, error);
+  TemporaryFolder links;
+  if (!session.create(options.run.output, error)) return abandon(kExitLauncherFailed, error);
+  const std::string library = preloadable(shim, links, error);
+  if (library.empty()) return abandon(kExitLauncherFailed, error);
   LaunchOptions own = options;
   own.run.log_file = session.log_path();
-  const auto environment = child_environment(own, session, shim, capture, error);
+  const auto environment = child_environment(own, session, library, capture, error);
   if (!environment) return abandon(kExitLauncherFailed, error);
   const auto child = run_child(options.program, *environment, failure, options.seconds);
   if (!child) return abandon(failure.status, failure.reason);
@@ -288,22 +329,13 @@ int verb_run(int argc, char** argv) {
   const auto shim = find_shim(shim_name, looked);
   if (!shim)
     return fail(kExitLauncherFailed, std::string(shim_name) + ": not found (looked at " + looked + ")");
-  bool made = false;
-  if (!prepare_output(options.run.output, made, error)) return fail(kExitLauncherFailed, error);
-  const auto remove_if_empty = [&] {
-    std::error_code code;
-    if (made) std::filesystem::remove(options.run.output, code);
-  };
-  if (options.measure_overhead) {
-    const int status = measure_overhead(options, *shim, *program);
-    remove_if_empty();
-    return status;
-  }
+  OutputFolder output;
+  if (!output.prepare(options.run.output, error)) return fail(kExitLauncherFailed, error);
+  if (options.measure_overhead) return measure_overhead(options, *shim, *program);
 
   SessionFolder session;
   int status = 0;
   const auto done = launch(options, *shim, true, options.quiet, session, status);
-  remove_if_empty();
   if (!done) return status;
   const Harvest& found = done->found;
   if (own_status(done->child) != 0) return own_status(done->child);

@@ -1,10 +1,7 @@
 // Capture worker: one frame at a time, in the order of presentation.
 #include "interposer/engine/capture_worker.h"
 
-#include <fcntl.h>
 #include <sched.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
@@ -14,6 +11,8 @@
 
 #include "interposer/engine/frame_dump.h"
 #include "interposer/run/descriptors.h"
+#include "tilepress/session_mark.h"
+#include "tilepress/shared_folder.h"
 
 namespace tilepress {
 namespace {
@@ -33,17 +32,6 @@ const char* name_of(ReadWay way) {
     default:
       return "sync";
   }
-}
-
-void note_run_folder(const std::string& path, int64_t pid) {
-  const char* session = getenv("TILEPRESS_SESSION");
-  if (session == nullptr || *session == 0) return;
-  const std::string file_name = std::string(session) + "/" + std::to_string(pid) + ".run";
-  const int file = open(file_name.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0) return;
-  const std::string line = path + "\n";
-  [[maybe_unused]] const ssize_t written = write(file, line.data(), line.size());
-  close(file);
 }
 
 }  // namespace
@@ -95,11 +83,12 @@ void CaptureWorker::run() {
 }
 
 bool CaptureWorker::create_directory() {
-  const std::string stem = options_.output + "/" + info_.program + "-" + std::to_string(info_.pid);
-  std::string path = stem;
-  struct stat status;
-  for (int suffix = 2; lstat(path.c_str(), &status) == 0; ++suffix)
-    path = stem + "-" + std::to_string(suffix);
+  const std::string path = make_run_folder(options_.output, info_.program + "-" + std::to_string(info_.pid));
+  if (path.empty()) {
+    files_error_ = options_.output + ": " + std::strerror(errno);
+    return false;
+  }
+  write_session_mark(path, info_.pid);
   if (!writer_.create(path, info_, options_)) return false;
   if (!presents_.create(path + "/presents.csv", kPresentColumns) ||
       !surface_rows_.create(path + "/surfaces.csv", kSurfaceColumns)) {
@@ -108,7 +97,6 @@ bool CaptureWorker::create_directory() {
   }
   pictures_.open(path, options_);
   live_.open(path, info_, options_);
-  note_run_folder(path, info_.pid);
   log_.write(LogLevel::kInfo, path + ": run started");
   return true;
 }

@@ -1,6 +1,7 @@
 // Present times: rows appended from the presenting threads.
 #include "interposer/engine/present_times.h"
 
+#include <cerrno>
 #include <cstdlib>
 #include <string>
 
@@ -9,7 +10,12 @@ namespace tilepress {
 PresentTimes::PresentTimes(int64_t pid) {
   const char* folder = std::getenv("TILEPRESS_PRESENT_TIMES");
   if (folder == nullptr || *folder == 0) return;
-  file_.create(std::string(folder) + "/" + std::to_string(pid) + ".times", "surface,begin_ns,hook_ns\n");
+  const std::string stem = std::string(folder) + "/" + std::to_string(pid);
+  const std::string header = "surface,begin_ns,hook_ns\n";
+  std::string name = stem + ".times";
+  // In another PID namespace a process may have the same number.
+  for (int suffix = 2; !file_.create(name, header) && errno == EEXIST; ++suffix)
+    name = stem + "-" + std::to_string(suffix) + ".times";
 }
 
 void PresentTimes::note(uintptr_t surface, uint64_t begin_ns, uint64_t hook_ns) {

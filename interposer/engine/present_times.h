@@ -10,7 +10,7 @@
 namespace tilepress {
 
 /// Writes `<TILEPRESS_PRESENT_TIMES>/<pid>.times`, a row `surface,begin_ns,hook_ns` per presented frame.
-/// Without the variable it is off. One write() per row: what ends the program loses none.
+/// If that file exists, the name is `<pid>-2.times` and so on. Without the variable it is off. One write() per row: what ends the program loses none.
 class PresentTimes {
  public:
   explicit PresentTimes(int64_t pid);

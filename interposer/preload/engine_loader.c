@@ -9,6 +9,7 @@
 #include "elf_symbols.h"
 #include "environment.h"
 #include "plain_text.h"
+#include "session_file.h"
 #include "system_calls.h"
 
 static const struct TilepressEngine* loaded;
@@ -22,16 +23,11 @@ static void* open_beside(const char* own_path, const char* name) {
 }
 
 static void report(const char* reason) {
-  const char* path = tp_environment("TILEPRESS_LOG_FILE");
-  const int file = path != NULL ? tp_open(path, O_WRONLY | O_APPEND | O_CREAT, 0666) : -1;
-  if (file < 0) return;
-  char bytes[4096];
+  char bytes[2048];
   struct tp_text line = {bytes, sizeof bytes, 0, false};
   tp_append(&line, "tilepress: engine: ");
   tp_append(&line, reason != NULL ? reason : "not loaded");
-  tp_append(&line, "\n");
-  tp_write(file, bytes, line.length);
-  tp_close(file);
+  tp_session_log(bytes);
 }
 
 static void load(void) {

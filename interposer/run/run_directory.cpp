@@ -84,7 +84,10 @@ bool RunWriter::append(const FrameStatistics& frame) {
     std::vector<SchemeStatistics>& totals = target ? target_totals_ : totals_;
     for (size_t i = 0; i < totals.size(); ++i) totals[i] += frame.schemes[i];
   }
-  return monotonic_ns() - last_json_ns_ < kJsonPeriodNs || write_json("running", "");
+  // run.json only repeats what the rows hold. A program that has dropped privileges may append to open files
+  // and no longer replace one.
+  if (monotonic_ns() - last_json_ns_ >= kJsonPeriodNs) write_json("running", "");
+  return true;
 }
 
 void RunWriter::set_counts(const RunCounts& counts, const RunCounts& targets) {

@@ -12,6 +12,7 @@
 #include <map>
 
 #include "run/run_json.h"
+#include "tilepress/session_mark.h"
 #include "tilepress/csv_reader.h"
 #include "tilepress/live_page.h"
 #include "tilepress/live_picture.h"
@@ -249,8 +250,8 @@ bool close_run(const RunEnd& end, RunRecord& record, std::string& error) {
   const std::string& path = record.path;
   if (!cut_file(path + "/frames.csv", record.frames_bytes, error)) return false;
   if (!cut_file(path + "/schemes.csv", record.schemes_bytes, error)) return false;
-  for (const char* file : {kLiveFile, kLivePictureFile})
-    unlink((path + "/" + file).c_str());  // of a program that was killed
+  for (const char* file : {kLiveFile, kLivePictureFile, kSessionMarkFile})
+    unlink((path + "/" + file).c_str());  // the first two are of a program that was killed
   if (end.overrules || record.state == "running" || (end.signal && record.state != "failed")) {
     record.state = end.state;
     record.reason = end.reason;
