@@ -4,7 +4,6 @@
 #include <GL/glext.h>
 
 #include <algorithm>
-#include <cstring>
 
 namespace tilepress {
 namespace {
@@ -12,8 +11,8 @@ namespace {
 bool has_framebuffer_objects(const GlFunctions& gl, const ContextVersion& version) {
   if (gl.CheckFramebufferStatus == nullptr || gl.GetFramebufferAttachmentParameteriv == nullptr) return false;
   if (version.number >= (version.embedded ? 20 : 30)) return true;
-  const auto* extensions = reinterpret_cast<const char*>(gl.GetString(GL_EXTENSIONS));
-  return extensions != nullptr && strstr(extensions, "_framebuffer_object") != nullptr;
+  return has_early_extension(gl, version,
+                             "GL_ARB_framebuffer_object GL_EXT_framebuffer_object GL_OES_framebuffer_object");
 }
 
 GLenum target_of(const ContextVersion& version, FramebufferUse use) {
@@ -44,6 +43,14 @@ GLuint bound_framebuffer(const GlFunctions& gl, const ContextVersion& version, F
   GLint name = 0;
   gl.GetIntegerv(read ? GL_READ_FRAMEBUFFER_BINDING : GL_FRAMEBUFFER_BINDING, &name);
   return static_cast<GLuint>(name);
+}
+
+bool bind_framebuffer(const GlFunctions& gl, const ContextVersion& version, FramebufferUse use, GLuint name) {
+  const bool early = version.number < (version.embedded ? 20 : 30);
+  auto* bind = version.embedded ? gl.BindFramebufferOES : gl.BindFramebufferEXT;
+  if (!early || has_early_extension(gl, version, "GL_ARB_framebuffer_object")) bind = gl.BindFramebuffer;
+  if (bind != nullptr) bind(target_of(version, use), name);
+  return bind != nullptr;
 }
 
 std::vector<GLenum> buffers_in_use(const GlFunctions& gl, const ContextVersion& version, FramebufferUse use) {

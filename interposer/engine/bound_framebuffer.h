@@ -34,6 +34,10 @@ enum class FramebufferUse { kDraw, kRead };
 /// context knows no framebuffer objects.
 GLuint bound_framebuffer(const GlFunctions& gl, const ContextVersion& version, FramebufferUse use);
 
+/// Binds framebuffer object `name` by the function that belongs to the context's version. False if there is
+/// none.
+bool bind_framebuffer(const GlFunctions& gl, const ContextVersion& version, FramebufferUse use, GLuint name);
+
 /// The points that drawing goes to, or the one that is read from: GL_COLOR_ATTACHMENTi of a framebuffer
 /// object, GL_BACK and the like of the default framebuffer. Without GL_NONE.
 std::vector<GLenum> buffers_in_use(const GlFunctions& gl, const ContextVersion& version, FramebufferUse use);

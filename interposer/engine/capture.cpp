@@ -187,7 +187,8 @@ bool Capture::begin_capture(TilepressPresent& present, uint64_t begin_ns) {
   if (!is_capturing()) return false;
   PresentSource* source = source_of(present);
   if (source == nullptr) return false;
-  if (present.api == TILEPRESS_OSMESA && !source->find_current(present)) return false;  // another API's, then
+  if (present.api == TILEPRESS_OSMESA && !source->find_current(present, FramebufferUse::kDraw))
+    return false;  // another API's, then
   if (options_.all_targets && source->context() != nullptr) {
     take_attachments(present, *source, targets_left(source->gl()), FramebufferUse::kDraw,
                      SurfaceRole::kTarget, "target");

@@ -26,6 +26,11 @@ const char* cause_of(uint32_t kind) {
   return kind == TILEPRESS_GL_FINISH ? "finish" : kind == TILEPRESS_GL_FLUSH ? "flush" : "readpixels";
 }
 
+/// What a call that ends a frame is about: what the context reads from, or draws to.
+FramebufferUse use_of(uint32_t kind) {
+  return kind == TILEPRESS_GL_READ_PIXELS ? FramebufferUse::kRead : FramebufferUse::kDraw;
+}
+
 uint64_t pixel_hash(const CapturedFrame& frame) {
   const SurfaceView& view = frame.view;
   const size_t row_bytes = size_t{view.width} * traits(view.format).pixel_bits / 8;
@@ -114,12 +119,13 @@ PresentSource* Capture::source_of(const TilepressGlCall& call, TilepressPresent&
   present = {};
   present.via = call.via;
   present.context_destroyed = call.context_destroyed;
+  const FramebufferUse use = use_of(call.kind);
   const auto is_current = [&](uint32_t api, void* real) -> PresentSource* {
     present.api = api;
     present.real = real;
     present.look_up = call.look_up[api];
     PresentSource* source = real != nullptr ? source_of(present) : nullptr;
-    return source != nullptr && source->find_current(present) ? source : nullptr;
+    return source != nullptr && source->find_current(present, use) ? source : nullptr;
   };
   if (PresentSource* source = is_current(TILEPRESS_OSMESA, call.osmesa)) return source;
   // On a driver's own road the driver says what is current, else the libraries that programs call.
@@ -163,8 +169,7 @@ void Capture::gl_call(const TilepressGlCall& call) {
 }
 
 void Capture::trigger(const TilepressGlCall& call, const TilepressPresent& present, PresentSource& source) {
-  const FramebufferUse use =
-      call.kind == TILEPRESS_GL_READ_PIXELS ? FramebufferUse::kRead : FramebufferUse::kDraw;
+  const FramebufferUse use = use_of(call.kind);
   const GlFunctions& gl = source.gl();
   const ContextVersion version = version_of(gl);
   if (bound_framebuffer(gl, version, use) == 0) return take_default_framebuffer(call, present, source, use);
@@ -192,9 +197,7 @@ void Capture::take_default_framebuffer(const TilepressGlCall& call, const Tilepr
   const bool front = buffers[0] == GL_FRONT || buffers[0] == GL_FRONT_LEFT;
   shot.read = [&](CapturedFrame& frame, std::string& why) {
     if (!front) return source.read(present, shot.shape, frame, why);
-    why = "the program's context cannot be read";
-    frame.way = ReadWay::kInContext;
-    return read_in_program_context(source.gl(), shot.shape, buffers[0], frame);
+    return source.read_in_place(present, shot.shape, buffers[0], frame, why);
   };
   CaptureWorker* made = worker(present, source);
   Take taken = take(shot, *made);

@@ -1,9 +1,6 @@
 // Context version: which GL a context speaks, so that it is asked nothing that would raise an error.
 #pragma once
 
-#include <cstdio>
-#include <cstring>
-
 #include "interposer/engine/gl_functions.h"
 
 namespace tilepress {
@@ -11,20 +8,20 @@ namespace tilepress {
 struct ContextVersion {
   bool embedded = false;  ///< OpenGL ES
   int number = 0;         ///< 10 · major + minor; 0 = unknown
+  bool separate_by_extension = false;
 
   /// Reading and drawing have framebuffer bindings of their own, with a read buffer each.
-  bool separate_framebuffers() const { return number >= 30; }
+  bool separate_framebuffers() const { return number >= 30 || separate_by_extension; }
 };
 
-inline ContextVersion version_of(const GlFunctions& gl) {
-  const auto* text = reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
-  ContextVersion version;
-  if (text == nullptr) return version;
-  version.embedded = strncmp(text, "OpenGL ES", 9) == 0;
-  while (*text != 0 && (*text < '0' || *text > '9')) ++text;
-  int major = 0, minor = 0;
-  if (sscanf(text, "%d.%d", &major, &minor) == 2) version.number = 10 * major + minor;
-  return version;
-}
+/// Of the current context.
+ContextVersion version_of(const GlFunctions& gl);
+
+/// True if `all`, names separated by blanks, holds one of `wanted`, separated by blanks too.
+bool holds_extension(const char* all, const char* wanted);
+
+/// True if a context below version 3 has one of these extensions. Those versions alone answer with one string
+/// in every profile.
+bool has_early_extension(const GlFunctions& gl, const ContextVersion& version, const char* wanted);
 
 }  // namespace tilepress

@@ -62,7 +62,8 @@ class EglSource final : public PresentSource {
     const auto surface = reinterpret_cast<EGLSurface>(present.surface);
     if (egl_.GetCurrentContext() == EGL_NO_CONTEXT) return fail(reason, "no context is current");
     if (egl_.GetCurrentDisplay() != present.display) return fail(reason, "another display is current");
-    if (egl_.GetCurrentSurface(EGL_DRAW) != surface) return fail(reason, "the surface is not current");
+    if (egl_.GetCurrentSurface(EGL_DRAW) != surface && egl_.GetCurrentSurface(EGL_READ) != surface)
+      return fail(reason, "the surface is not current");
     EGLint width = 0, height = 0;
     if (!egl_.QuerySurface(present.display, surface, EGL_WIDTH, &width) ||
         !egl_.QuerySurface(present.display, surface, EGL_HEIGHT, &height))
@@ -76,10 +77,11 @@ class EglSource final : public PresentSource {
     return true;
   }
 
-  bool find_current(TilepressPresent& present) override {
+  bool find_current(TilepressPresent& present, FramebufferUse use) override {
     if (egl_.GetCurrentContext() == EGL_NO_CONTEXT) return false;
     present.display = egl_.GetCurrentDisplay();
-    present.surface = reinterpret_cast<uintptr_t>(egl_.GetCurrentSurface(EGL_DRAW));
+    present.surface = reinterpret_cast<uintptr_t>(
+        egl_.GetCurrentSurface(use == FramebufferUse::kRead ? EGL_READ : EGL_DRAW));
     return true;
   }
   const void* context() const override { return egl_.GetCurrentContext(); }
@@ -90,10 +92,7 @@ class EglSource final : public PresentSource {
     const EGLContext context = egl_.GetCurrentContext();
     const EGLSurface draw = egl_.GetCurrentSurface(EGL_DRAW), read = egl_.GetCurrentSurface(EGL_READ);
     const ContextPool::Key key{display, reinterpret_cast<uintptr_t>(context)};
-    if (context_is_destroyed(display)) {
-      reason = "the program's context is destroyed";
-      return false;
-    }
+    if (!can_come_back(display)) return fail(reason, "the program's context or surface is destroyed");
     EGLContext own = sharing_.take(key);
     if (own == EGL_NO_CONTEXT) own = create_sharing(display, context);
     const bool bound =
@@ -140,10 +139,37 @@ class EglSource final : public PresentSource {
 
   bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
             std::string& reason) override {
-    const bool stay = in_program_context_only() || context_is_destroyed(present.display);
+    const bool stay = in_program_context_only() || !can_come_back(present.display);
     return read_either(
         stay, frame, reason, [&] { return read_privately(present, shape, frame, reason); },
-        [&] { return read_in_place(present, shape, frame, reason); });
+        [&] { return read_in_place(present, shape, buffer_of(present), frame, reason); });
+  }
+
+  // A read takes from the read surface. Where another is presented, the two change places for as long as the
+  // read takes: both stay current, so neither loses its buffers, and Mesa gives neither new ones for a new
+  // size, as it does when another context is made current.
+  bool read_in_place(const TilepressPresent& present, const SurfaceShape& shape, GLenum buffer,
+                     CapturedFrame& frame, std::string& reason) override {
+    frame.way = ReadWay::kInContext;
+    const auto config = config_of(present);
+    if (config && config->multisampled)
+      return fail(reason, "a multisampled surface is resolved in a private context alone");
+    const EGLDisplay display = present.display;
+    const EGLContext context = egl_.GetCurrentContext();
+    const EGLSurface draw = egl_.GetCurrentSurface(EGL_DRAW), read = egl_.GetCurrentSurface(EGL_READ);
+    const bool change = read != reinterpret_cast<EGLSurface>(present.surface);
+    const uint64_t begin_ns = now_ns();
+    if (change && !can_come_back(display))
+      return fail(reason, "the surface that the program reads from is destroyed");
+    if (change && !egl_.MakeCurrent(display, read, draw, context))
+      return fail(reason, "the surface cannot be read in the program's context");
+    const uint64_t changed_ns = now_ns();
+    const bool taken = read_in_program_context(gl_, shape, buffer, frame);
+    const uint64_t taken_ns = now_ns();
+    if (change && !egl_.MakeCurrent(display, draw, read, context))
+      return fail(reason, "the program's context could not be made current again");
+    if (change) frame.bind_ns = now_ns() - taken_ns + changed_ns - begin_ns;
+    return taken || fail(reason, "the program's context cannot be read");
   }
 
   void release(void* display) override {
@@ -168,18 +194,19 @@ class EglSource final : public PresentSource {
     return !egl_.QueryContext(display, egl_.GetCurrentContext(), EGL_CONFIG_ID, &id);
   }
 
-  /// In the program's context.
-  bool read_in_place(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
-                     std::string& reason) {
-    frame.way = ReadWay::kInContext;
-    const auto config = config_of(present);
-    if (config && config->multisampled) {
-      reason = "a multisampled surface is resolved in a private context alone";
-      return false;
-    }
-    if (read_in_program_context(gl_, shape, buffer_of(present), frame)) return true;
-    if (reason.empty()) reason = "the program's context cannot be read";
-    return false;
+  /// What is current could be made current again. A surface that the program has destroyed lives on only
+  /// until something else is current; its handle is unknown, or, in Mesa, no longer answered.
+  bool can_come_back(EGLDisplay display) const {
+    const EGLSurface draw = egl_.GetCurrentSurface(EGL_DRAW), read = egl_.GetCurrentSurface(EGL_READ);
+    if (context_is_destroyed(display)) return false;
+    return draw == EGL_NO_SURFACE && read == EGL_NO_SURFACE
+               ? true
+               : is_known(display, draw) && is_known(display, read);
+  }
+
+  bool is_known(EGLDisplay display, EGLSurface surface) const {
+    EGLint id = 0;
+    return surface != EGL_NO_SURFACE && egl_.QuerySurface(display, surface, EGL_CONFIG_ID, &id);
   }
 
   Attempt read_privately(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,

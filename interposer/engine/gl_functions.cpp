@@ -8,7 +8,15 @@ bool GlFunctions::load(const Lookup& look_up) {
     function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(look_up(name));
     return function != nullptr;
   };
+  fill(GetStringi, "glGetStringi");
+  fill(GetFloatv, "glGetFloatv");
+  fill(PixelTransferi, "glPixelTransferi");
+  fill(PixelTransferf, "glPixelTransferf");
+  if (!fill(ClampColor, "glClampColor")) fill(ClampColor, "glClampColorARB");
+  fill(MatrixMode, "glMatrixMode");
+  fill(LoadMatrixf, "glLoadMatrixf");
   fill(ReadBuffer, "glReadBuffer");
+  fill(ReadBufferNV, "glReadBufferNV");
   fill(IsEnabled, "glIsEnabled");
   fill(Enable, "glEnable");
   fill(Disable, "glDisable");
@@ -23,6 +31,8 @@ bool GlFunctions::load(const Lookup& look_up) {
   fill(Flush, "glFlush");
   fill(BindBuffer, "glBindBuffer");
   fill(BindFramebuffer, "glBindFramebuffer");
+  fill(BindFramebufferEXT, "glBindFramebufferEXT");
+  fill(BindFramebufferOES, "glBindFramebufferOES");
   fill(CheckFramebufferStatus, "glCheckFramebufferStatus");
   fill(GetFramebufferAttachmentParameteriv, "glGetFramebufferAttachmentParameteriv");
   fill(IsTexture, "glIsTexture");

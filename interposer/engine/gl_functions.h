@@ -17,7 +17,15 @@ struct GlFunctions {
   void (*PixelStorei)(GLenum, GLint) = nullptr;
   void (*ReadPixels)(GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void*) = nullptr;
 
+  const GLubyte* (*GetStringi)(GLenum, GLuint) = nullptr;
+  void (*GetFloatv)(GLenum, GLfloat*) = nullptr;
+  void (*PixelTransferi)(GLenum, GLint) = nullptr;
+  void (*PixelTransferf)(GLenum, GLfloat) = nullptr;
+  void (*ClampColor)(GLenum, GLenum) = nullptr;
+  void (*MatrixMode)(GLenum) = nullptr;
+  void (*LoadMatrixf)(const GLfloat*) = nullptr;
   void (*ReadBuffer)(GLenum) = nullptr;
+  void (*ReadBufferNV)(GLenum) = nullptr;  ///< OpenGL ES 2
   GLboolean (*IsEnabled)(GLenum) = nullptr;
   void (*Enable)(GLenum) = nullptr;
   void (*Disable)(GLenum) = nullptr;
@@ -32,6 +40,8 @@ struct GlFunctions {
   void (*Flush)() = nullptr;
   void (*BindBuffer)(GLenum, GLuint) = nullptr;
   void (*BindFramebuffer)(GLenum, GLuint) = nullptr;
+  void (*BindFramebufferEXT)(GLenum, GLuint) = nullptr;  ///< OpenGL before 3.0
+  void (*BindFramebufferOES)(GLenum, GLuint) = nullptr;  ///< OpenGL ES 1
   GLenum (*CheckFramebufferStatus)(GLenum) = nullptr;
   void (*GetFramebufferAttachmentParameteriv)(GLenum, GLenum, GLenum, GLint*) = nullptr;
   GLboolean (*IsTexture)(GLuint) = nullptr;

@@ -93,10 +93,11 @@ class GlxSource final : public PresentSource {
     return true;
   }
 
-  bool find_current(TilepressPresent& present) override {
+  bool find_current(TilepressPresent& present, FramebufferUse use) override {
     if (glx_.GetCurrentContext() == nullptr) return false;
     present.display = glx_.GetCurrentDisplay();
-    present.surface = glx_.GetCurrentDrawable();
+    present.surface =
+        use == FramebufferUse::kRead ? glx_.GetCurrentReadDrawable() : glx_.GetCurrentDrawable();
     return true;
   }
   const void* context() const override { return glx_.GetCurrentContext(); }
@@ -107,7 +108,7 @@ class GlxSource final : public PresentSource {
     const GLXContext context = glx_.GetCurrentContext();
     const GLXDrawable draw = glx_.GetCurrentDrawable(), read = glx_.GetCurrentReadDrawable();
     Display* display = glx_.GetCurrentDisplay();
-    if (context_is_destroyed(present)) return fail(reason, "the program's context is destroyed");
+    if (!can_come_back(present)) return fail(reason, "the program's context or drawable is destroyed");
     const auto config = find_config(present, display, 0, 0);
     const ContextPool::Key key{display, reinterpret_cast<uintptr_t>(context)};
     watch_end_of(display);
@@ -126,11 +127,40 @@ class GlxSource final : public PresentSource {
 
   bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
             std::string& reason) override {
-    const bool stay = in_program_context_only() || context_is_destroyed(present);
+    const bool stay = in_program_context_only() || !can_come_back(present);
     if (stay && !is_current(present)) return fail(reason, "the drawable is current nowhere");
+    const bool double_buffered = described() && described()->double_buffered;
+    const GLenum buffer = double_buffered ? GL_BACK : GL_FRONT;
     return read_either(
         stay, frame, reason, [&] { return read_privately(present, shape, frame, reason); },
-        [&] { return read_in_place(present, shape, frame, reason); });
+        [&] { return read_in_place(present, shape, buffer, frame, reason); });
+  }
+
+  // A read takes from the read drawable. Where another is presented, the two change places for as long as the
+  // read takes. Both stay current: a plain X window that is not loses its buffers in Mesa. And the context
+  // stays: for another one Mesa would give both buffers of the size that they have by now.
+  bool read_in_place(const TilepressPresent& present, const SurfaceShape& shape, GLenum buffer,
+                     CapturedFrame& frame, std::string& reason) override {
+    if (!is_current(present)) return false;
+    frame.way = ReadWay::kInContext;
+    if (described() && described()->multisampled)
+      return fail(reason, "a multisampled surface is resolved in a private context alone");
+    Display* display = glx_.GetCurrentDisplay();
+    const GLXContext context = glx_.GetCurrentContext();
+    const GLXDrawable draw = glx_.GetCurrentDrawable(), read = glx_.GetCurrentReadDrawable();
+    const bool change = read != present.surface;
+    const uint64_t begin_ns = now_ns();
+    if (change && !can_come_back(present))
+      return fail(reason, "the drawable that the program reads from is destroyed");
+    if (change && !glx_.MakeContextCurrent(display, read, draw, context))
+      return fail(reason, "the drawable cannot be read in the program's context");
+    const uint64_t changed_ns = now_ns();
+    const bool taken = read_in_program_context(gl_, shape, buffer, frame);
+    const uint64_t taken_ns = now_ns();
+    if (change && !glx_.MakeContextCurrent(display, draw, read, context))
+      return fail(reason, "the program's context could not be made current again");
+    if (change) frame.bind_ns = now_ns() - taken_ns + changed_ns - begin_ns;
+    return taken || fail(reason, "the program's context cannot be read");
   }
 
   void release(void* display) override {
@@ -157,7 +187,27 @@ class GlxSource final : public PresentSource {
   }
 
   bool is_current(const TilepressPresent& present) const {
-    return glx_.GetCurrentContext() != nullptr && glx_.GetCurrentDrawable() == present.surface;
+    return glx_.GetCurrentContext() != nullptr &&
+           (glx_.GetCurrentDrawable() == present.surface || glx_.GetCurrentReadDrawable() == present.surface);
+  }
+
+  /// What is current could be made current again. To try that with a drawable that is gone would be an X
+  /// error, which ends the program. The one that is presented is there, or presenting it would be such an
+  /// error too.
+  bool can_come_back(const TilepressPresent& present) const {
+    if (glx_.GetCurrentContext() == nullptr) return true;
+    if (context_is_destroyed(present)) return false;
+    for (const GLXDrawable drawable : {glx_.GetCurrentDrawable(), glx_.GetCurrentReadDrawable()})
+      if (drawable != None && drawable != present.surface && !exists(drawable)) return false;
+    return true;
+  }
+
+  bool exists(GLXDrawable drawable) const {
+    Display* display = glx_.GetCurrentDisplay();
+    DrawableSize::GlxDrawable found;
+    unsigned width = 0, height = 0;
+    VisualID visual = 0;
+    return size_.query(display, drawable, width, height, visual) || size_.query_glx(display, drawable, found);
   }
 
   /// The calling thread presents a drawable that it has not current. A window that was made for GLX, or a
@@ -182,21 +232,6 @@ class GlxSource final : public PresentSource {
     shape = {found.width, found.height, config->format,
              config->srgb_capable && glx_.GetCurrentContext() != nullptr && is_srgb(), kResizable};
     return true;
-  }
-
-  /// In the program's context.
-  bool read_in_place(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
-                     std::string& reason) {
-    if (!is_current(present)) return false;
-    frame.way = ReadWay::kInContext;
-    if (described() && described()->multisampled) {
-      reason = "a multisampled surface is resolved in a private context alone";
-      return false;
-    }
-    const bool double_buffered = described() && described()->double_buffered;
-    if (read_in_program_context(gl_, shape, double_buffered ? GL_BACK : GL_FRONT, frame)) return true;
-    if (reason.empty()) reason = "the program's context cannot be read";
-    return false;
   }
 
   Attempt read_privately(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
@@ -258,9 +293,9 @@ class GlxSource final : public PresentSource {
     return config;
   }
 
-  /// The config of the current context; of one that was made for a visual (where Mesa answers -1), or that is
-  /// destroyed (where a driver may ask the X server, for which it is an error), the drawable's, or the
-  /// window's visual's.
+  /// The config that the drawable tells, else that of the current context. Of a context that was made for a
+  /// visual (where Mesa answers -1), or that is destroyed (where a driver may ask the X server, for which it
+  /// is an error), the window's visual's.
   std::optional<KnownConfig> find_config(const TilepressPresent& present, Display* display,
                                          int drawable_config, VisualID visual) {
     int id = 0, screen = 0;
@@ -271,7 +306,7 @@ class GlxSource final : public PresentSource {
       return std::nullopt;
     else if (glx_.QueryContext(display, context, GLX_FBCONFIG_ID, &id) != 0)
       id = 0;
-    if (id <= 0) id = drawable_config;
+    if (drawable_config > 0) id = drawable_config;
     if (id > 0) return known_config(display, screen, GLX_FBCONFIG_ID, id);
     return visual != 0 ? known_config(display, screen, GLX_VISUAL_ID, static_cast<int>(visual))
                        : std::nullopt;

@@ -5,104 +5,14 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
-#include <vector>
 
 #include "interposer/engine/context_version.h"
 #include "interposer/engine/monotonic_clock.h"
+#include "interposer/engine/neutral_read_state.h"
 #include "interposer/engine/transfer.h"
 
 namespace tilepress {
 namespace {
-
-// Sets pack parameters to the plain layout and puts them back.
-class PlainPackState {
- public:
-  PlainPackState(const GlFunctions& gl, const ContextVersion& version) : gl_(gl) {
-    set(GL_PACK_ALIGNMENT, 1);
-    if (!version.embedded || version.number >= 30)
-      for (const GLenum name : {GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS}) set(name, 0);
-    if (!version.embedded)
-      for (const GLenum name :
-           {GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST, GL_PACK_IMAGE_HEIGHT, GL_PACK_SKIP_IMAGES})
-        set(name, 0);
-  }
-  ~PlainPackState() {
-    for (const Saved& saved : saved_) gl_.PixelStorei(saved.name, saved.value);
-  }
-  PlainPackState(const PlainPackState&) = delete;
-  PlainPackState& operator=(const PlainPackState&) = delete;
-
- private:
-  struct Saved {
-    GLenum name;
-    GLint value;
-  };
-  void set(GLenum name, GLint value) {
-    GLint before = 0;
-    gl_.GetIntegerv(name, &before);
-    if (before == value) return;
-    saved_.push_back({name, before});
-    gl_.PixelStorei(name, value);
-  }
-  const GlFunctions& gl_;
-  std::vector<Saved> saved_;
-};
-
-// Binds a framebuffer and no pack buffer for reading, with a buffer of it selected; puts all back.
-class ReadBinding {
- public:
-  ReadBinding(const GlFunctions& gl, const ContextVersion& version, GLuint framebuffer, GLenum buffer)
-      : gl_(gl) {
-    const bool separate = version.separate_framebuffers();
-    target_ = separate ? GL_READ_FRAMEBUFFER : GL_FRAMEBUFFER;
-    before_ = bound_framebuffer(gl, version, FramebufferUse::kRead);
-    bound_ = framebuffer;
-    if (before_ != bound_) gl.BindFramebuffer(target_, bound_);
-    if (version.number >= (version.embedded ? 30 : 21)) {
-      gl.GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &pack_buffer_);
-      if (pack_buffer_ != 0) gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    }
-    if (!version.embedded || version.number >= 30) {
-      gl.GetIntegerv(GL_READ_BUFFER, &read_buffer_);
-      restore_read_buffer_ = static_cast<GLenum>(read_buffer_) != buffer;
-      if (restore_read_buffer_) gl.ReadBuffer(buffer);
-    }
-  }
-  ~ReadBinding() {
-    if (restore_read_buffer_) gl_.ReadBuffer(static_cast<GLenum>(read_buffer_));
-    if (pack_buffer_ != 0) gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(pack_buffer_));
-    if (before_ != bound_) gl_.BindFramebuffer(target_, before_);
-  }
-  ReadBinding(const ReadBinding&) = delete;
-  ReadBinding& operator=(const ReadBinding&) = delete;
-
- private:
-  const GlFunctions& gl_;
-  GLenum target_ = GL_FRAMEBUFFER;
-  bool restore_read_buffer_ = false;
-  GLuint before_ = 0, bound_ = 0;
-  GLint pack_buffer_ = 0, read_buffer_ = 0;
-};
-
-// The program's debug callback hears of its own calls alone: a driver has something to say of slow reads.
-class QuietDebugOutput {
- public:
-  QuietDebugOutput(const GlFunctions& gl, const ContextVersion& version) : gl_(gl) {
-    const bool known = version.number >= (version.embedded ? 32 : 43) && gl.IsEnabled != nullptr &&
-                       gl.Enable != nullptr && gl.Disable != nullptr;
-    was_on_ = known && gl.IsEnabled(GL_DEBUG_OUTPUT) != GL_FALSE;
-    if (was_on_) gl.Disable(GL_DEBUG_OUTPUT);
-  }
-  ~QuietDebugOutput() {
-    if (was_on_) gl_.Enable(GL_DEBUG_OUTPUT);
-  }
-  QuietDebugOutput(const QuietDebugOutput&) = delete;
-  QuietDebugOutput& operator=(const QuietDebugOutput&) = delete;
-
- private:
-  const GlFunctions& gl_;
-  bool was_on_ = false;
-};
 
 // Of the buffer that is bound; empty where this context does not read its format. OpenGL ES reads 8-bit RGBA,
 // and what else it offers itself.
@@ -130,7 +40,6 @@ bool read_bound(const GlFunctions& gl, const ContextVersion& version, const Surf
   std::byte* pixels = frame.reserve(pitch_bytes * shape.height);
   if (pixels == nullptr) return false;
   if (frame.partial) std::memset(pixels, 0, pitch_bytes * shape.height);
-  const PlainPackState pack(gl, version);
   const uint64_t begin_ns = now_ns();
   gl.ReadPixels(0, 0, static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height), transfer->format,
                 transfer->type, pixels);
@@ -145,14 +54,10 @@ bool read_bound(const GlFunctions& gl, const ContextVersion& version, const Surf
   return true;
 }
 
-bool can_read(const GlFunctions& gl, const ContextVersion& version) {
-  const bool selects = !version.embedded || version.number >= 30;
-  if (version.number == 0 || gl.BindFramebuffer == nullptr || gl.BindBuffer == nullptr ||
-      (selects && gl.ReadBuffer == nullptr))
-    return false;
-  GLint render_mode = GL_RENDER;
-  if (!version.embedded && version.number < 31) gl.GetIntegerv(GL_RENDER_MODE, &render_mode);
-  return render_mode == GL_RENDER;
+bool read_neutrally(const GlFunctions& gl, const ContextVersion& version, GLuint framebuffer, GLenum buffer,
+                    const SurfaceShape& shape, CapturedFrame& frame) {
+  const NeutralReadState neutral(gl, version, framebuffer, buffer);
+  return neutral.whole() && read_bound(gl, version, shape, frame);
 }
 
 }  // namespace
@@ -168,19 +73,14 @@ bool in_program_context_only() {
 bool read_in_program_context(const GlFunctions& gl, const SurfaceShape& shape, GLenum buffer,
                              CapturedFrame& frame) {
   const ContextVersion version = version_of(gl);
-  if (!can_read(gl, version)) return false;
-  const QuietDebugOutput quiet(gl, version);
-  const ReadBinding binding(gl, version, 0, buffer);
-  return read_bound(gl, version, shape, frame);
+  return version.number != 0 && read_neutrally(gl, version, 0, buffer, shape, frame);
 }
 
 bool read_attachment_in_program_context(const GlFunctions& gl, const Attachment& attachment,
                                         FramebufferUse use, const SurfaceShape& shape, CapturedFrame& frame) {
   const ContextVersion version = version_of(gl);
-  if (!can_read(gl, version)) return false;
-  const QuietDebugOutput quiet(gl, version);
-  const ReadBinding binding(gl, version, bound_framebuffer(gl, version, use), attachment.point);
-  return read_bound(gl, version, shape, frame);
+  return version.number != 0 &&
+         read_neutrally(gl, version, bound_framebuffer(gl, version, use), attachment.point, shape, frame);
 }
 
 }  // namespace tilepress

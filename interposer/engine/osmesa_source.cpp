@@ -42,15 +42,19 @@ class OsmesaSource final : public PresentSource {
     return true;
   }
 
-  bool read(const TilepressPresent&, const SurfaceShape& shape, CapturedFrame& frame,
+  bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
             std::string& reason) override {
-    frame.way = ReadWay::kInContext;
-    if (read_in_program_context(gl_, shape, GL_FRONT, frame)) return true;
-    reason = "the program's context cannot be read";
-    return false;
+    return read_in_place(present, shape, GL_FRONT, frame, reason);
   }
 
-  bool find_current(TilepressPresent& present) override {
+  bool read_in_place(const TilepressPresent&, const SurfaceShape& shape, GLenum buffer, CapturedFrame& frame,
+                     std::string& reason) override {
+    frame.way = ReadWay::kInContext;
+    if (read_in_program_context(gl_, shape, buffer, frame)) return true;
+    return fail(reason, "the program's context cannot be read");
+  }
+
+  bool find_current(TilepressPresent& present, FramebufferUse) override {
     present.display = nullptr;
     present.surface = 0;
     return osmesa_.GetCurrentContext() != nullptr;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "interposer/engine/bound_framebuffer.h"
 #include "interposer/engine/captured_frame.h"
 #include "interposer/engine/gl_functions.h"
 #include "interposer/engine/late_reader.h"
@@ -32,8 +33,14 @@ class PresentSource {
   /// program's. `frame.way` says how, and afterwards how it was.
   virtual bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
                     std::string& reason) = 0;
-  /// Fills in what is current on the calling thread: display and surface. False if no context of this API is.
-  virtual bool find_current(TilepressPresent& present) = 0;
+  /// Reads `buffer` (GL_BACK, GL_FRONT and the like) of what `present` presents, in the program's context.
+  /// While it reads, that surface is the one that the context reads from; afterwards all is current as
+  /// before.
+  virtual bool read_in_place(const TilepressPresent& present, const SurfaceShape& shape, GLenum buffer,
+                             CapturedFrame& frame, std::string& reason) = 0;
+  /// Fills in what is current on the calling thread: display, and the surface that the context draws to or
+  /// reads from. False if no context of this API is current.
+  virtual bool find_current(TilepressPresent& present, FramebufferUse use) = 0;
   /// The context that is current on the calling thread.
   virtual const void* context() const = 0;
   /// Runs `work` in a private context that shares objects with the program's, and makes the program's current
