@@ -6,6 +6,7 @@
 #include "child_process.h"
 #include "session_folder.h"
 #include "temporary_folder.h"
+#include "tilepress/run_lock.h"
 #include "tilepress/run_reader.h"
 
 namespace tilepress {
@@ -32,6 +33,7 @@ std::string judge(const SessionFolder& session, const ChildEnd& child) {
   }
   RunRecord record;
   std::string error;
+  wait_for_writer(runs.front().run_path, true);
   if (!read_run(runs.front().run_path, record, error)) return error;
   if (record.frames.size() != kFrames)
     return std::to_string(record.frames.size()) + " of " + std::to_string(kFrames) + " frames captured";

@@ -20,8 +20,8 @@
 #include "summary_table.h"
 #include "temporary_folder.h"
 #include "tilepress/run_lock.h"
-#include "tilepress/session_mark.h"
 #include "tilepress/run_reader.h"
+#include "tilepress/session_mark.h"
 #include "tilepress/shim_environment.h"
 #include "verb.h"
 
@@ -177,7 +177,8 @@ Harvest harvest(const SessionFolder& session, const ChildEnd& child, bool quiet)
   for (const CapturedProcess& process : session.captured()) {
     RunRecord record;
     std::string error;
-    const bool running = !wait_for_writer(process.run_path, is_child(process, child));
+    const bool ended = is_child(process, child);
+    const bool running = !wait_for_writer(process.run_path, ended) && !ended;
     if (!read_run(process.run_path, record, error) ||
         (!running && !close_run(end_of(process, child), record, error))) {
       out.failures.push_back(error);

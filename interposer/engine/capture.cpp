@@ -235,25 +235,27 @@ void Capture::end_capture(TilepressPresent& present, bool presented) {
 void Capture::commit(const Take& taken) {
   RoleCounts& counts = counts_.of(taken.role);
   FrameQueue& queue = worker_.load()->queue();
-  ++counts.seen;
+  counts.raise(&LiveCounts::seen);
   if (taken.window != Take().window) registry_.presented(taken.window, taken.begin_ns, taken.triggered);
   switch (taken.outcome) {
     case Outcome::kTaken:
-      return queue.submit(taken.frame);
+      queue.submit(taken.frame);
+      break;
     case Outcome::kSkipped:
-      ++counts.skipped;
+      counts.raise(&LiveCounts::skipped);
       break;
     case Outcome::kDropped:
-      ++counts.dropped;
+      counts.raise(&LiveCounts::dropped);
       break;
     case Outcome::kUnsupported:
-      ++counts.unsupported;
+      counts.raise(&LiveCounts::unsupported);
       break;
     case Outcome::kNotCaptured:
-      ++counts.not_captured;
+      counts.raise(&LiveCounts::not_captured);
       break;
   }
-  queue.wake();
+  if (taken.outcome != Outcome::kTaken) queue.wake();
+  worker_.load()->presented();
 }
 
 void Capture::contexts_going(uint32_t api, void* display, void* context) {

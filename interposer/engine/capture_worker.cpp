@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "interposer/engine/frame_dump.h"
+#include "interposer/engine/monotonic_clock.h"
 #include "interposer/run/descriptors.h"
 #include "tilepress/session_mark.h"
 #include "tilepress/shared_folder.h"
@@ -36,9 +37,42 @@ const char* name_of(ReadWay way) {
 
 }  // namespace
 
+void RoleCounts::raise(Count count, uint64_t by) {
+  const uint64_t now = (counts_.*count += by);
+  LiveCounts* shared = shared_;
+  if (shared == nullptr) return;
+  std::atomic<uint64_t>& shown = shared->*count;
+  for (uint64_t before = shown; before < now && !shown.compare_exchange_weak(before, now);) {
+  }
+}
+
+RunCounts RoleCounts::now() const {
+  return {counts_.seen,    counts_.captured,    counts_.dropped,
+          counts_.skipped, counts_.unsupported, counts_.not_captured};
+}
+
+void RoleCounts::show_in(LiveCounts* shared) {
+  shared_ = shared;
+  if (shared == nullptr) return;
+  for (const Count count : {&LiveCounts::seen, &LiveCounts::captured, &LiveCounts::dropped,
+                            &LiveCounts::skipped, &LiveCounts::unsupported, &LiveCounts::not_captured})
+    raise(count, 0);
+}
+
+void RoleCounts::settle() {
+  const RunCounts known = now();
+  const uint64_t traced =
+      known.captured + known.dropped + known.skipped + known.unsupported + known.not_captured;
+  if (known.seen > traced) raise(&LiveCounts::not_captured, known.seen - traced);
+}
+
 CaptureWorker::CaptureWorker(const RunOptions& options, const RunInfo& info, CaptureCounts& counts,
                              const ShimLog& log)
-    : options_(options), info_(info), counts_(counts), log_(log), queue_(options.queue_frames) {}
+    : options_(options),
+      info_(info),
+      counts_(counts),
+      log_(log),
+      queue_(options.queue_frames, [this] { return task_.program_gone(); }) {}
 
 bool CaptureWorker::start() {
   alive_ = thread_.start("tilepress", [this] { run(); });
@@ -46,6 +80,22 @@ bool CaptureWorker::start() {
 }
 
 void CaptureWorker::run() {
+  bool ended = false;
+  task_.run([&] {
+    if (task_.obstacle() != nullptr)
+      log_.write(LogLevel::kDebug, std::string("frames are compressed on a thread: ") + task_.obstacle());
+    work_until_closed();
+    ended = true;
+  });
+  if (ended) return;
+  // Nobody is left to take frames: no thread of the program may wait for room.
+  log_.write(LogLevel::kError, "the capture has been killed");
+  alive_ = false;
+  while (!queue_.close()) {
+  }
+}
+
+void CaptureWorker::work_until_closed() {
   // Frames may be dropped so that the program is not held up: then it is not held up by our use of the cores
   // either.
   const sched_param none{};
@@ -56,30 +106,71 @@ void CaptureWorker::run() {
     // since the turn before.
     for (bool last = false; !last;) {
       last = queue_.closed_and_empty();
-      CapturedFrame* frame = last ? nullptr : queue_.next();
-      if (!writer_.is_open() && alive() && counts_.presented.seen + counts_.targets.seen > 0 &&
-          !create_directory())
-        give_up(writer_.error().empty() ? files_error_ : writer_.error());
-      if (frame != nullptr) {
-        if (frame->last_of_window)
-          surfaces_.erase(frame->window);
-        else if (frame->lost)
-          ++counts_.of(frame->role).not_captured;
-        else if (alive())
-          process(*frame);
-        queue_.done(frame);
-      }
-      if (writer_.is_open()) publish_counts();
+      take(last ? nullptr : queue_.next());
+      task_.note_progress();
     }
-    if (alive() && writer_.is_open()) {
-      writer_.finish("finished", "");
-      live_.close();
-      live_picture_.close();
-    }
+    end_run();
   } catch (const std::exception& error) {
     give_up(error.what());
   }
   yielding_.end();
+}
+
+void CaptureWorker::take(CapturedFrame* frame) {
+  if (!writer_.is_open() && alive() && counts_.presented.seen() + counts_.targets.seen() > 0) {
+    if (!create_directory()) give_up(writer_.error().empty() ? files_error_ : writer_.error());
+    opened_ = true;
+    opened_changed_.notify_all();
+  }
+  if (frame != nullptr) {
+    if (frame->last_of_window)
+      surfaces_.erase(frame->window);
+    else if (frame->lost)
+      counts_.of(frame->role).raise(&LiveCounts::not_captured);
+    else if (alive())
+      process(*frame);
+    queue_.done(frame);
+  }
+  if (writer_.is_open()) publish_counts();
+}
+
+void CaptureWorker::end_run() {
+  if (!alive() || !writer_.is_open()) return;
+  const bool gone = task_.program_gone();
+  if (gone) {
+    writer_.program_has_ended();
+    counts_.presented.settle();
+    counts_.targets.settle();
+    publish_counts();
+  }
+  writer_.finish(gone ? "ended" : "finished", gone ? "the program ended without exit()" : "");
+  counts_.presented.show_in(nullptr);
+  counts_.targets.show_in(nullptr);
+  live_.close();
+  live_picture_.close();
+}
+
+void CaptureWorker::presented() {
+  if (!opened_ && alive()) {
+    constexpr uint64_t kPatience = 2'000'000'000;
+    const uint64_t end_ns = now_ns() + kPatience;
+    std::unique_lock lock(opened_mutex_);
+    while (!opened_ && alive() && !in_place_ && now_ns() < end_ns) opened_changed_.wait(lock, kPatience / 20);
+  }
+  if (in_place_) work_here();
+}
+
+void CaptureWorker::work_here() {
+  const std::lock_guard lock(finish_mutex_);
+  try {
+    do {
+      CapturedFrame* frame = queue_.pending() == 0 ? nullptr : queue_.next();
+      take(frame);
+    } while (queue_.pending() > 0);
+    end_run();
+  } catch (const std::exception& error) {
+    give_up(error.what());
+  }
 }
 
 bool CaptureWorker::create_directory() {
@@ -97,6 +188,10 @@ bool CaptureWorker::create_directory() {
   }
   pictures_.open(path, options_);
   live_.open(path, info_, options_);
+  if (LivePage* page = live_.page()) {
+    counts_.presented.show_in(&page->presented);
+    counts_.targets.show_in(&page->targets);
+  }
   log_.write(LogLevel::kInfo, path + ": run started");
   return true;
 }
@@ -109,7 +204,7 @@ CaptureWorker::Surface* CaptureWorker::known_surface(const CapturedFrame& frame)
 void CaptureWorker::process(const CapturedFrame& frame) {
   Surface* surface = known_surface(frame);
   // Memory is had for the first frame of a surface: always on one thread, or it would come from two heaps.
-  const bool may_yield = options_.on_full == OnFull::kBlock && surface != nullptr;
+  const bool may_yield = options_.on_full == OnFull::kBlock && surface != nullptr && !in_place_;
   if (surface == nullptr) {
     if (!append_surface(frame)) return give_up(writer_.path() + "/surfaces.csv: cannot be written");
     surface = &surfaces_
@@ -131,7 +226,7 @@ void CaptureWorker::process(const CapturedFrame& frame) {
   dump_frame(frame, log_);
   if (!append_present(frame)) return give_up(writer_.path() + "/presents.csv: cannot be written");
   if (!writer_.append(statistics_)) return give_up(writer_.error());
-  ++counts_.of(frame.role).captured;
+  counts_.of(frame.role).raise(&LiveCounts::captured);
   // Without the frame in hand: it is pending until the queue has it back.
   if (frame.role == SurfaceRole::kPresented)
     live_.update(statistics_, writer_.totals(), counts_.presented.now(), queue_.pending() - 1,
@@ -144,7 +239,7 @@ void CaptureWorker::process(const CapturedFrame& frame) {
 void CaptureWorker::compress(SurfaceEngine& engine, bool may_yield) {
   // A program that ends waits for all that is pending, and so does a replay behind the last frame wanted.
   const std::optional<uint64_t> last = options_.frames.last();
-  const auto awaited = [&] { return queue_.closed() || (last && counts_.presented.seen > *last); };
+  const auto awaited = [&] { return queue_.closed() || (last && counts_.presented.seen() > *last); };
   const auto yields = [&] { return !awaited() && pace_.yields(queue_.pending(), queue_.depth()); };
   bool more = true;
   if (may_yield && yields()) {
@@ -156,7 +251,10 @@ void CaptureWorker::compress(SurfaceEngine& engine, bool may_yield) {
   } else {
     pace_.hurried();
   }
-  while (more) more = engine.advance();
+  while (more) {
+    more = engine.advance();
+    task_.note_progress();
+  }
 }
 
 bool CaptureWorker::append_present(const CapturedFrame& frame) {
@@ -201,11 +299,12 @@ void CaptureWorker::give_up(const std::string& reason) {
 
 void CaptureWorker::finish() {
   // Bounded at every step: the caller may be a signal handler on top of any thread of the program.
-  if (!queue_.close()) return;
-  if (finish_mutex_.try_lock()) {
-    if (!thread_.is_current()) thread_.join();
-    finish_mutex_.unlock();
-  }
+  if (in_place_ || !queue_.close()) return;
+  if (!finish_mutex_.try_lock()) return;
+  thread_.join();
+  in_place_ = true;
+  if (alive()) queue_.open_again();
+  finish_mutex_.unlock();
 }
 
 }  // namespace tilepress

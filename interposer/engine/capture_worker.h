@@ -1,14 +1,15 @@
-// Capture worker: the thread that compresses captured frames and writes the run.
+// Capture worker: compresses captured frames and writes the run, in a task that outlives the program.
 #pragma once
 
 #include <atomic>
 #include <map>
-#include <mutex>
 #include <string>
 
 #include "interposer/engine/frame_queue.h"
 #include "interposer/engine/own_thread.h"
+#include "interposer/engine/plain_lock.h"
 #include "interposer/engine/shim_log.h"
+#include "interposer/engine/surviving_task.h"
 #include "interposer/engine/worker_pace.h"
 #include "interposer/engine/yielding_thread.h"
 #include "interposer/run/append_file.h"
@@ -24,9 +25,21 @@ namespace tilepress {
 constexpr uint32_t kRoadPreload = 1, kRoadGlvnd = 2;
 
 /// Counts of the process, raised by the presenting threads (and `captured` by the worker).
-struct RoleCounts {
-  std::atomic<uint64_t> seen{0}, captured{0}, dropped{0}, skipped{0}, unsupported{0}, not_captured{0};
-  RunCounts now() const { return {seen, captured, dropped, skipped, unsupported, not_captured}; }
+class RoleCounts {
+ public:
+  using Count = std::atomic<uint64_t> LiveCounts::*;
+  void raise(Count count, uint64_t by = 1);
+  uint64_t of(Count count) const { return counts_.*count; }
+  uint64_t seen() const { return counts_.seen; }
+  RunCounts now() const;
+  /// Shows the counts in `shared` too, from now on; null = no more.
+  void show_in(LiveCounts* shared);
+  /// Counts what was seen and left no other trace as not captured: the program has ended.
+  void settle();
+
+ private:
+  LiveCounts counts_{};
+  std::atomic<LiveCounts*> shared_{nullptr};
 };
 struct CaptureCounts {
   RoleCounts presented, targets;
@@ -42,8 +55,12 @@ class CaptureWorker {
   /// Starts the thread with all signals blocked. False if the system gives none.
   bool start();
   FrameQueue& queue() { return queue_; }
-  /// Writes out all pending frames and ends the run. Does nothing if that cannot be done safely.
+  /// Writes out all pending frames, ends the run and the thread. Does nothing if that cannot be done safely.
+  /// Frames that are presented later are worked on by the thread that presents them.
   void finish();
+  /// To be called after each present: waits for the run folder after the first one, so that the run outlives
+  /// the program from then on, and does the work after finish().
+  void presented();
   /// False once the run cannot be written any more (full disk, unwritable folder).
   bool alive() const { return alive_.load(std::memory_order_relaxed); }
 
@@ -53,6 +70,10 @@ class CaptureWorker {
     SurfaceEngine engine;
   };
   void run();
+  void work_until_closed();
+  void take(CapturedFrame* frame);
+  void work_here();
+  void end_run();
   bool create_directory();
   /// Null before its first frame.
   Surface* known_surface(const CapturedFrame& frame);
@@ -81,8 +102,13 @@ class CaptureWorker {
   FrameStatistics statistics_;
   WorkerPace pace_;
   YieldingThread yielding_;
+  SurvivingTask task_;
   OwnThread thread_;
-  std::mutex finish_mutex_;
+  PlainMutex finish_mutex_;
+  PlainMutex opened_mutex_;
+  PlainCondition opened_changed_;
+  std::atomic<bool> opened_{false};   ///< the run folder is there, or will never be
+  std::atomic<bool> in_place_{false};  ///< no thread any more: work is done where frames are presented
   std::atomic<bool> alive_{true};
 };
 

@@ -51,6 +51,7 @@ struct CapturedFrame {
   bool awaited = false;   ///< the pixels have not arrived yet
   bool lost = false;      ///< they never will
   bool unwanted = false;  ///< released before they arrived
+  CapturedFrame* next = nullptr;  ///< in the same list
 
   SurfaceView view;  ///< lies in `pixels`
 

@@ -85,11 +85,6 @@ void finish() {
   }
 }
 
-// Runs after all atexit handlers of the program: it may present frames even there.
-__attribute__((destructor)) void at_library_end() {
-  finish();
-}
-
 constexpr TilepressEngine kEngine = {TILEPRESS_ENGINE_VERSION, begin,         end,   gl_call, drawn_mark,
                                      contexts_going,           surface_going, finish};
 
@@ -100,6 +95,9 @@ extern "C" __attribute__((visibility("default"))) const TilepressEngine* tilepre
     const TilepressHost* host) {
   if (host == nullptr || host->version != TILEPRESS_ENGINE_VERSION) return nullptr;
   tilepress::host = *host;
+  // Handlers run from the last to the first, and before all destructors: libraries that this engine calls
+  // into are still whole then. Frames that are presented later are worked on by who presents them.
+  std::atexit([] { tilepress::finish(); });
   at_quick_exit([] { tilepress::finish(); });
   return &tilepress::kEngine;
 }

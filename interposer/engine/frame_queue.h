@@ -2,14 +2,12 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
-#include <deque>
-#include <memory>
+#include <functional>
 #include <mutex>
-#include <vector>
 
 #include "interposer/engine/captured_frame.h"
+#include "interposer/engine/plain_lock.h"
 
 namespace tilepress {
 
@@ -17,7 +15,12 @@ namespace tilepress {
 /// for each other's presents cannot be held up by a frame that none of them can finish.
 class FrameQueue {
  public:
-  explicit FrameQueue(uint32_t depth) : depth_(depth) {}
+  /// `program_gone`: for a worker that outlives the program. True once no other thread uses the queue.
+  explicit FrameQueue(uint32_t depth, std::function<bool()> program_gone = {})
+      : depth_(depth), program_gone_(std::move(program_gone)) {}
+  FrameQueue(const FrameQueue&) = delete;
+  FrameQueue& operator=(const FrameQueue&) = delete;
+  ~FrameQueue();
 
   /// A frame to fill. When `depth` frames are pending: waits if `wait`, else returns null. Null also after
   /// close().
@@ -31,13 +34,16 @@ class FrameQueue {
   void arrived(CapturedFrame* frame, bool whole);
 
   /// The worker's side: the next frame, or null after wake() or once closed and empty. Waits for one that is
-  /// awaited; once closed for two seconds, then it is lost.
+  /// awaited; once closed for two seconds, then it is lost. Closes the queue when the program is gone: what
+  /// is awaited is lost then.
   CapturedFrame* next();
   void done(CapturedFrame* frame);
 
   /// No more frames; what is pending is still handed out. Gives up, returning false, if the lock cannot be
   /// had within a second: the caller may be a signal handler on top of a thread that holds it.
   bool close();
+  /// Undoes close().
+  void open_again() { closed_ = false; }
   bool closed_and_empty();
   bool closed() const { return closed_; }
   uint32_t depth() const { return depth_; }
@@ -48,16 +54,28 @@ class FrameQueue {
   bool full() const { return pending() >= depth_; }
 
  private:
+  /// Frames in a row. A thread that is gone may have stopped at any line: the list is whole all the same.
+  struct List {
+    CapturedFrame* first = nullptr;
+    CapturedFrame* last = nullptr;
+    void append(CapturedFrame* frame);
+    CapturedFrame* take_first();
+  };
+  using Lock = std::unique_lock<PlainMutex>;
+  CapturedFrame* any_free();
+  Lock lock_of_worker();
+  bool front_is_whole() const { return ready_.first != nullptr && !ready_.first->awaited; }
+  void lose_front();
+
   const uint32_t depth_;
-  std::unique_ptr<CapturedFrame> any_free();
-  bool front_is_whole() const { return !ready_.empty() && !ready_.front()->awaited; }
-  std::timed_mutex mutex_;
-  std::condition_variable_any changed_;
-  std::vector<std::unique_ptr<CapturedFrame>> free_;
-  std::deque<std::unique_ptr<CapturedFrame>> ready_;
+  const std::function<bool()> program_gone_;
+  PlainMutex mutex_;
+  PlainCondition changed_;
+  List free_, ready_;
   std::atomic<uint32_t> pending_ = 0;  ///< changes under the lock
   std::atomic<bool> closed_ = false;   ///< the same
   bool woken_ = false;
+  bool abandoned_ = false;  ///< by the program
 };
 
 }  // namespace tilepress

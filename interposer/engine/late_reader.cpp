@@ -4,16 +4,16 @@
 
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <utility>
 
+#include "interposer/engine/monotonic_clock.h"
 #include "interposer/engine/own_calls.h"
 
 namespace tilepress {
 namespace {
 
-constexpr std::chrono::seconds kPatience{2};
+constexpr uint64_t kPatience = 2'000'000'000;  // ns
 std::atomic<LateReader*> running{nullptr};
 
 }  // namespace
@@ -34,7 +34,7 @@ void LateReader::at_exit() {
 }
 
 bool LateReader::start() {
-  const std::unique_lock lock(mutex_, kPatience);
+  const Lock lock = patient_lock();
   if (!lock.owns_lock()) return false;
   if (thread_.started()) return true;
   if (!thread_.start("tilepress-read", [this] { run(); })) return false;
@@ -43,9 +43,13 @@ bool LateReader::start() {
   return registered;
 }
 
+LateReader::Lock LateReader::patient_lock() {
+  return mutex_.try_lock_for(kPatience) ? Lock(mutex_, std::adopt_lock) : Lock();
+}
+
 bool LateReader::append(Job job, uint64_t& number) {
   {
-    const std::unique_lock lock(mutex_, kPatience);
+    const Lock lock = patient_lock();
     if (!lock.owns_lock() || !thread_.started()) return false;
     jobs_.push_back(std::move(job));
     number = ++posted_;
@@ -55,8 +59,15 @@ bool LateReader::append(Job job, uint64_t& number) {
 }
 
 bool LateReader::wait_for(uint64_t number) {
-  std::unique_lock lock(mutex_, kPatience);
-  return lock.owns_lock() && changed_.wait_for(lock, kPatience, [&] { return done_ >= number; });
+  Lock lock = patient_lock();
+  if (!lock.owns_lock()) return false;
+  const uint64_t end_ns = now_ns() + kPatience;
+  while (done_ < number) {
+    const uint64_t now = now_ns();
+    if (now >= end_ns) return false;
+    changed_.wait(lock, end_ns - now);
+  }
+  return true;
 }
 
 bool LateReader::try_out(const std::shared_ptr<PixelBuffers>& buffers) {
@@ -84,7 +95,7 @@ void LateReader::post(CapturedFrame& frame) {
 bool LateReader::let_go(const void* display) {
   if (!is_of_this_process()) return true;
   {
-    const std::unique_lock lock(mutex_, kPatience);
+    const Lock lock = patient_lock();
     if (lock.owns_lock() && !thread_.started()) return true;
   }
   uint64_t number = 0;
@@ -94,8 +105,8 @@ bool LateReader::let_go(const void* display) {
 void LateReader::run() {
   inside_engine = true;
   for (;;) {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return !jobs_.empty(); });
+    Lock lock(mutex_);
+    while (jobs_.empty()) changed_.wait(lock);
     Job job = std::move(jobs_.front());
     jobs_.pop_front();
     lock.unlock();

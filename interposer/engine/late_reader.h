@@ -3,16 +3,15 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 
 #include "interposer/engine/captured_frame.h"
 #include "interposer/engine/own_thread.h"
 #include "interposer/engine/pixel_buffers.h"
+#include "interposer/engine/plain_lock.h"
 
 namespace tilepress {
 
@@ -45,6 +44,9 @@ class LateReader {
   static constexpr const void* kEveryDisplay = nullptr;
   bool is_of_this_process() const;
   bool start();
+  using Lock = std::unique_lock<PlainMutex>;
+  /// Owns nothing if the mutex cannot be had within two seconds.
+  Lock patient_lock();
   bool append(Job job, uint64_t& number);
   bool wait_for(uint64_t number);
   void run();
@@ -53,8 +55,8 @@ class LateReader {
   static void at_exit();
 
   const int pid_;
-  std::timed_mutex mutex_;
-  std::condition_variable_any changed_;
+  PlainMutex mutex_;
+  PlainCondition changed_;
   std::deque<Job> jobs_;
   uint64_t posted_ = 0, done_ = 0;
   OwnThread thread_;  ///< has no end

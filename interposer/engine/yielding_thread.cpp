@@ -2,7 +2,6 @@
 #include "interposer/engine/yielding_thread.h"
 
 #include <sched.h>
-#include <time.h>
 
 #include <utility>
 
@@ -12,9 +11,7 @@ namespace tilepress {
 namespace {
 
 uint64_t thread_cpu_ns() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<uint64_t>(time.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(time.tv_nsec);
+  return clock_ns(CLOCK_THREAD_CPUTIME_ID);
 }
 
 }  // namespace
@@ -37,7 +34,7 @@ YieldingThread::Turn YieldingThread::run(const std::function<void()>& work) {
   std::unique_lock lock(mutex_);
   work_ = &work;
   changed_.notify_all();
-  changed_.wait(lock, [&] { return work_ == nullptr; });
+  while (work_ != nullptr) changed_.wait(lock);
   if (const std::exception_ptr thrown = std::exchange(thrown_, nullptr)) std::rethrow_exception(thrown);
   return turn_;
 }
@@ -47,7 +44,7 @@ void YieldingThread::serve() {
   sched_setscheduler(0, SCHED_IDLE, &none);  // on Linux: of this thread
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [&] { return work_ != nullptr || ended_; });
+    while (work_ == nullptr && !ended_) changed_.wait(lock);
     if (work_ == nullptr) return;
     lock.unlock();
     const uint64_t begin_ns = now_ns(), begin_cpu_ns = thread_cpu_ns();

@@ -1,13 +1,12 @@
 // Yielding thread: runs one piece of work at a time, when the machine has nothing more urgent to do.
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
 #include <exception>
 #include <functional>
-#include <mutex>
 
 #include "interposer/engine/own_thread.h"
+#include "interposer/engine/plain_lock.h"
 
 namespace tilepress {
 
@@ -28,8 +27,8 @@ class YieldingThread {
  private:
   void serve();
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
+  PlainMutex mutex_;
+  PlainCondition changed_;
   const std::function<void()>* work_ = nullptr;  ///< null: nothing to do
   bool ended_ = false;
   std::exception_ptr thrown_;

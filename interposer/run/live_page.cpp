@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 
 #include "run/sequenced_words.h"
 #include "run/shared_file.h"
+#include "run/system_call.h"
 
 namespace tilepress {
 namespace {
@@ -24,12 +24,6 @@ constexpr size_t kStateWords = sizeof(LiveState) / sizeof(uint64_t);
 void copy_name(char (&out)[kLiveNameBytes], const std::string& name) {
   std::memset(out, 0, sizeof out);
   std::memcpy(out, name.data(), std::min(name.size(), sizeof out - 1));
-}
-
-uint64_t monotonic_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<uint64_t>(now.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(now.tv_nsec);
 }
 
 uint64_t* words_of(LiveState& state) {
@@ -100,7 +94,7 @@ bool LiveWriter::picture_wanted() {
   if (page_ == nullptr) return false;
   const uint64_t requests = page_->picture_requests.load(std::memory_order_relaxed);
   if (requests == 0) return false;  // nobody ever asked
-  const uint64_t now = monotonic_ns();
+  const uint64_t now = clock_ns(CLOCK_MONOTONIC);
   if (requests != requests_seen_) {
     requests_seen_ = requests;
     request_seen_ns_ = now;
@@ -116,8 +110,7 @@ void LiveWriter::set_picture_error(int error) {
 
 void LiveWriter::close() {
   if (page_ == nullptr) return;
-  munmap(page_, sizeof(LivePage));
-  page_ = nullptr;
+  page_ = nullptr;  // stays mapped: a thread of the program may be about to count a frame in it
   unlink(path_.c_str());
 }
 
@@ -149,6 +142,21 @@ bool LiveReader::read(LiveState& out) const {
     sched_yield();
   }
   return false;
+}
+
+namespace {
+RunCounts counts_of(const LiveCounts& counts) {
+  return {counts.seen, counts.captured, counts.dropped, counts.skipped, counts.unsupported,
+          counts.not_captured};
+}
+}  // namespace
+
+RunCounts LiveReader::presented() const {
+  return page_ == nullptr ? RunCounts{} : counts_of(page_->presented);
+}
+
+RunCounts LiveReader::targets() const {
+  return page_ == nullptr ? RunCounts{} : counts_of(page_->targets);
 }
 
 void LiveReader::ask_for_pictures() {

@@ -3,23 +3,17 @@
 
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 
 #include "run/append_file.h"
 #include "run/run_json.h"
+#include "run/system_call.h"
 #include "tilepress/run_reader.h"
 
 namespace tilepress {
 namespace {
 
 constexpr uint64_t kJsonPeriodNs = 500'000'000;
-
-uint64_t monotonic_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<uint64_t>(now.tv_sec) * 1'000'000'000u + static_cast<uint64_t>(now.tv_nsec);
-}
 
 }  // namespace
 
@@ -86,14 +80,14 @@ bool RunWriter::append(const FrameStatistics& frame) {
   }
   // run.json only repeats what the rows hold. A program that has dropped privileges may append to open files
   // and no longer replace one.
-  if (monotonic_ns() - last_json_ns_ >= kJsonPeriodNs) write_json("running", "");
+  if (clock_ns(CLOCK_MONOTONIC) - last_json_ns_ >= kJsonPeriodNs) write_json("running", "");
   return true;
 }
 
 void RunWriter::set_counts(const RunCounts& counts, const RunCounts& targets) {
   counts_ = counts;
   target_counts_ = targets;
-  if (is_open() && monotonic_ns() - last_json_ns_ >= kJsonPeriodNs) write_json("running", "");
+  if (is_open() && clock_ns(CLOCK_MONOTONIC) - last_json_ns_ >= kJsonPeriodNs) write_json("running", "");
 }
 
 void RunWriter::set_info(const RunInfo& info) {
@@ -105,7 +99,7 @@ bool RunWriter::finish(const std::string& state, const std::string& reason) {
 }
 
 bool RunWriter::write_json(const std::string& state, const std::string& reason) {
-  last_json_ns_ = monotonic_ns();
+  last_json_ns_ = clock_ns(CLOCK_MONOTONIC);
   const std::string text = run_json_text({state, reason, started_, info_, options_, counts_, measured_frames_,
                                           totals_, target_counts_, measured_targets_, target_totals_});
   std::string failure;

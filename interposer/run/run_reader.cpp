@@ -195,11 +195,17 @@ bool cut_file(const std::string& path, uint64_t end, std::string& error) {
   return !code;
 }
 
-/// What the rows prove goes before what the run last said of itself.
-void settle(RunCounts& counts, uint64_t captured) {
+/// The rows count as captured, whatever the run last said of itself. `page`: what the program's own threads
+/// have counted. Frames that were presented and left nothing are lost.
+void settle(RunCounts& counts, const RunCounts& page, uint64_t captured) {
   counts.captured = captured;
-  counts.seen = std::max(
-      counts.seen, captured + counts.dropped + counts.skipped + counts.unsupported + counts.not_captured);
+  for (const auto member : {&RunCounts::seen, &RunCounts::dropped, &RunCounts::skipped,
+                            &RunCounts::unsupported, &RunCounts::not_captured})
+    counts.*member = std::max(counts.*member, page.*member);
+  const uint64_t known =
+      captured + counts.dropped + counts.skipped + counts.unsupported + counts.not_captured;
+  if (counts.seen > known) counts.not_captured += counts.seen - known;
+  counts.seen = std::max(counts.seen, known);
 }
 
 }  // namespace
@@ -250,17 +256,27 @@ bool close_run(const RunEnd& end, RunRecord& record, std::string& error) {
   const std::string& path = record.path;
   if (!cut_file(path + "/frames.csv", record.frames_bytes, error)) return false;
   if (!cut_file(path + "/schemes.csv", record.schemes_bytes, error)) return false;
+  RunCounts presented, targets;
+  {
+    LiveReader page;
+    std::string no_page;
+    if (page.open(path, no_page)) {
+      presented = page.presented();
+      targets = page.targets();
+    }
+  }
   for (const char* file : {kLiveFile, kLivePictureFile, kSessionMarkFile})
     unlink((path + "/" + file).c_str());  // the first two are of a program that was killed
-  if (end.overrules || record.state == "running" || (end.signal && record.state != "failed")) {
+  if (end.overrules || record.state == "running" || record.state == "ended" ||
+      (end.signal && record.state != "failed")) {
     record.state = end.state;
     record.reason = end.reason;
   }
   if (!end.program.empty()) record.info.program = end.program;
   if (!end.via.empty()) record.info.via = end.via;
   for (const auto& member : end.further) record.info.further.push_back(member);
-  settle(record.counts, record.presented_frames());
-  settle(record.target_counts, record.frames.size() - record.presented_frames());
+  settle(record.counts, presented, record.presented_frames());
+  settle(record.target_counts, targets, record.frames.size() - record.presented_frames());
   std::string json, reason;
   read_text(path + "/run.json", json, reason);
   if (replace_file(path + "/run.json", finished_run_json(json, record, end), reason)) return true;

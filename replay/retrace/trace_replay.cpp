@@ -11,6 +11,7 @@
 #include "replay_attempt.h"
 #include "replay_road.h"
 #include "tilepress/file_digest.h"
+#include "tilepress/run_lock.h"
 
 namespace tilepress {
 namespace {
@@ -252,6 +253,7 @@ AttemptOutcome TraceReplay::attempt_road(const ReplayRoad& road, const std::stri
 
 void TraceReplay::find_run(Attempt& attempt) {
   for (const std::string& folder : run_folders_in(attempt.folder + "/runs")) {
+    wait_for_writer(folder, true);
     RunRecord run;
     std::string error;
     if (!read_run(folder, run, error)) {

@@ -14,6 +14,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "tilepress/run_lock.h"
+
 namespace tilepress::testing {
 namespace fs = std::filesystem;
 namespace {
@@ -169,11 +171,13 @@ ShimRun ShimTest::run(const std::vector<std::string>& command,
   ShimRun result;
   result.process = run_process(command, environment);
   if (fs::exists(output))
-    for (const auto& entry : fs::directory_iterator(output))
+    for (const auto& entry : fs::directory_iterator(output)) {
+      wait_for_writer(entry.path().string(), true);
       result.runs.push_back(
           {entry.path(), read_table(entry.path() / "frames.csv"), read_table(entry.path() / "schemes.csv"),
            read_table(entry.path() / "presents.csv"), read_table(entry.path() / "surfaces.csv"),
            read_file(entry.path() / "run.json")});
+    }
   std::sort(result.runs.begin(), result.runs.end(),
             [](const auto& a, const auto& b) { return a.path < b.path; });
   for (const auto& entry : fs::directory_iterator(session))

@@ -12,7 +12,7 @@
 
 namespace tilepress {
 
-constexpr uint32_t kLiveVersion = 2;
+constexpr uint32_t kLiveVersion = 3;
 constexpr size_t kLiveSchemes = 16;        ///< schemes past these are not shown
 constexpr size_t kLiveNameBytes = 64;      ///< with the closing zero
 constexpr const char* kLiveFile = "live";  ///< in the run directory, from the first frame until the run ends
@@ -41,6 +41,12 @@ struct LiveState {
   LiveScheme schemes[kLiveSchemes];
 };
 
+/// What the program has presented, or turned away from, so far: raised by its own threads, so that the
+/// numbers are right even if the program and the capture are killed together.
+struct LiveCounts {
+  std::atomic<uint64_t> seen, captured, dropped, skipped, unsupported, not_captured;
+};
+
 /// The file's contents. The capture makes `sequence` odd while it changes `state`.
 struct LivePage {
   uint64_t magic;  ///< bytes "TPLIVE\0\0"
@@ -49,6 +55,7 @@ struct LivePage {
   std::atomic<uint64_t> sequence;
   std::atomic<uint64_t> picture_requests;  ///< raised by who wants pictures, again and again (LiveReader)
   std::atomic<uint64_t> picture_error;     ///< errno of the last picture that could not be given, or 0
+  LiveCounts presented, targets;
   LiveState state;
 };
 static_assert(std::atomic<uint64_t>::is_always_lock_free && sizeof(LiveState) % sizeof(uint64_t) == 0);
@@ -61,6 +68,8 @@ class LiveWriter {
   LiveWriter& operator=(const LiveWriter&) = delete;
   ~LiveWriter();
   void open(const std::string& run_path, const RunInfo& info, const RunOptions& options);
+  /// Null without a page.
+  LivePage* page() const { return page_; }
   /// After each frame. `totals`: the run's sums, in the order of the schemes.
   void update(const FrameStatistics& frame, const std::vector<SchemeStatistics>& totals,
               const RunCounts& counts, uint64_t queued, uint64_t queue_depth);
@@ -90,6 +99,9 @@ class LiveReader {
   bool open(const std::string& run_path, std::string& error, bool asks_for_pictures = false);
   /// A consistent copy. False if none could be had (the writer died while writing).
   bool read(LiveState& out) const;
+  /// Counts that the program itself has raised. Zeros without a page.
+  RunCounts presented() const;
+  RunCounts targets() const;
   /// Asks for pictures (live_picture.h) for the next two seconds. Precondition: opened so.
   void ask_for_pictures();
   /// errno of the last picture that the capture could not give, or 0.

@@ -15,7 +15,9 @@ namespace tilepress {
 /// A run directory read back.
 struct RunRecord {
   std::string path;
-  std::string state = "running";  ///< of run.json: "running", "finished", "failed", "killed by signal 9"
+  /// Of run.json: "running", "finished", "failed", "killed by signal 9"; "ended" if the program ended without
+  /// exit() and its writer finished the run.
+  std::string state = "running";
   std::string reason;
   std::string started;  ///< UTC, ISO 8601; empty if run.json does not tell
   RunInfo info;
@@ -65,6 +67,7 @@ struct RunEnd {
 /// Closes a run that was read after its program had ended: cuts off a torn last row and the rows of an
 /// incomplete frame, and replaces run.json by one with totals over what is there. What the run itself has
 /// noted ("finished", "failed") stays, except that a signal overrules "finished", and `end.overrules` both.
+/// Frames that the program has presented and that left no row are counted as not captured.
 /// `record`, as read_run() gave it, becomes the run as it then is. False and one line in `error` on failure.
 bool close_run(const RunEnd& end, RunRecord& record, std::string& error);
 

@@ -1,0 +1,34 @@
+// Surviving task: work that goes on when the program has ended without exit().
+#pragma once
+
+#include <functional>
+
+namespace tilepress {
+
+/// A task of the kernel that shares the program's memory and nothing else: it has a thread group, signal
+/// handlers, descriptors and a working folder of its own. exit_group, execve and SIGKILL end the program's
+/// threads. The memory stays until this task has ended as well.
+///
+/// The thread that calls run() lends the task its stack and its thread-local memory, so that C and C++ code
+/// runs there as on any thread. The thread itself waits on a small stack of its own until the task ends.
+class SurvivingTask {
+ public:
+  /// Runs `work` in a task and returns when the task has ended. The calling thread must have blocked all
+  /// signals. Where no task can be had, `work` runs on the calling thread.
+  void run(const std::function<void()>& work);
+  /// Why there was no task; null if there was one.
+  const char* obstacle() const { return obstacle_; }
+  /// For `work`: whether the program's threads are gone. Always false without a task.
+  bool program_gone() const;
+  /// For `work`, once the program is gone: something has been done. A task that gets nothing done for 30
+  /// seconds ends, because a thread that is gone may hold a lock for good.
+  void note_progress() const;
+
+ private:
+  void enter();
+  const char* obstacle_ = nullptr;
+  bool in_task_ = false;
+  int program_ = 0, thread_ = 0;  ///< process of the program, and its thread that waits for the task
+};
+
+}  // namespace tilepress

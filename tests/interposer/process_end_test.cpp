@@ -1,0 +1,133 @@
+// Process end: however a program ends, its run has the rows of all frames, or says how many are missing.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "shim_process.h"
+#include "tilepress/run_reader.h"
+
+namespace tilepress::testing {
+namespace {
+
+/// Presents `frames` frames, ends in `way`, with `wrapper` in front of the command.
+ShimRun end_in(ShimTest& test, const std::string& way, int frames, std::vector<std::string> wrapper = {},
+               std::map<std::string, std::string> environment = {}) {
+  wrapper.insert(wrapper.end(), {TILEPRESS_PROCESS_END, std::to_string(frames), way});
+  environment.try_emplace("TILEPRESS_LOG_LEVEL", "debug");
+  return test.run(wrapper, std::move(environment));
+}
+
+void expect_whole(const ShimRun& run, size_t frames, const std::string& what) {
+  ASSERT_EQ(run.runs.size(), 1u) << what << run.log;
+  EXPECT_EQ(run.runs[0].frames.size(), frames) << what << run.log;
+  EXPECT_EQ(run.runs[0].json_number("seen"), static_cast<int64_t>(frames)) << what;
+  EXPECT_EQ(run.runs[0].json_number("captured"), static_cast<int64_t>(frames)) << what;
+}
+
+/// True where the shim could not have its task: a sandbox around the tests, for instance.
+bool on_a_thread(const ShimRun& run) {
+  return run.log.find("compressed on a thread") != std::string::npos;
+}
+
+class EndWithoutExit : public ::testing::TestWithParam<Road> {};
+
+TEST_P(EndWithoutExit, LosesNoFrame) {
+  for (const char* way : {"raw", "raw-thread", "exec"}) {
+    for (const int frames : {1, 3, 10}) {
+      ShimTest test(GetParam());
+      const ShimRun run = end_in(test, way, frames);
+      if (on_a_thread(run)) GTEST_SKIP() << run.log;
+      EXPECT_TRUE(run.process.exited_with(7)) << way << run.process.status;
+      EXPECT_EQ(run.process.err, "") << way;
+      expect_whole(run, static_cast<size_t>(frames), way);
+      EXPECT_EQ(run.runs[0].json_text("state"), "ended") << way;
+    }
+  }
+}
+
+TEST_P(EndWithoutExit, BySignalLosesNoFrameEither) {
+  const std::map<std::string, int> ways = {
+      {"kill", SIGKILL}, {"kill-group", SIGKILL}, {"abort", SIGABRT}, {"crash", SIGSEGV}};
+  for (const auto& [way, signal] : ways) {
+    ShimTest test(GetParam());
+    const ShimRun run = end_in(test, way, 6);
+    if (on_a_thread(run)) GTEST_SKIP() << run.log;
+    EXPECT_TRUE(run.process.killed_by(signal)) << way << run.process.status;
+    expect_whole(run, 6, way);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(ProcessEnd, EndWithoutExit, ::testing::Values(Road::kPreload, Road::kGlvnd));
+
+TEST(ProcessEnd, FramesPresentedWhileTheProcessEndsAreCaptured) {
+  for (const char* way : {"handler", "destructor"}) {
+    ShimTest test;
+    const ShimRun run = end_in(test, way, 4);
+    EXPECT_TRUE(run.process.exited_with(7)) << way << run.process.status;
+    expect_whole(run, 5, way);
+    EXPECT_EQ(run.runs[0].json_text("state"), "finished") << way;
+  }
+}
+
+TEST(ProcessEnd, TheProgramMayChangeItsUserAndHasNoStrangeChild) {
+  for (const char* way : {"setuid", "wait"}) {
+    ShimTest test;
+    const ShimRun run = end_in(test, way, 4);
+    EXPECT_TRUE(run.process.exited_with(7)) << way << run.process.status;
+    expect_whole(run, 4, way);
+  }
+}
+
+// What the threads of the program have counted lies in a shared page, and the folder is there in time.
+TEST(ProcessEnd, WithoutATaskTheFramesThatAreLostAreCounted) {
+  for (const char* way : {"raw", "kill", "exec"}) {
+    ShimTest test;
+    const ShimRun run = end_in(test, way, 40, {}, {{"LD_PRELOAD", TILEPRESS_PRELOAD ":/none/vgpreload_"},
+                                                   {"TILEPRESS_QUEUE", "64"}});
+    EXPECT_TRUE(on_a_thread(run)) << run.log;
+    ASSERT_EQ(run.runs.size(), 1u) << way;
+    RunRecord record;
+    std::string error;
+    ASSERT_TRUE(read_run(run.runs[0].path, record, error)) << error;
+    ASSERT_TRUE(close_run(RunEnd{}, record, error)) << error;
+    EXPECT_EQ(record.counts.seen, 40u) << way;
+    EXPECT_EQ(record.counts.captured, record.frames.size()) << way;
+    EXPECT_EQ(record.counts.not_captured, 40u - record.frames.size()) << way;
+  }
+}
+
+class ProgramUnder : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ProgramUnder, AnotherPreloadedLibraryEndsAsWithout) {
+  const std::string name = GetParam();
+  std::vector<std::string> wrapper = {name};
+  if (name == "faketime") wrapper.push_back("2020-01-01 00:00:00");
+  if (name == "jemalloc.sh") wrapper = {"env", std::string("LD_PRELOAD=") + TILEPRESS_PRELOAD + ":libjemalloc.so.2"};
+  for (const Road road : {Road::kPreload, Road::kGlvnd}) {
+    if (road == Road::kGlvnd && name == "jemalloc.sh") wrapper.back() = "LD_PRELOAD=libjemalloc.so.2";
+    for (int round = 0; round < 4; ++round) {
+      ShimTest test(road);
+      const ShimRun run = end_in(test, "return", 6, wrapper);
+      EXPECT_TRUE(run.process.exited_with(7)) << name << run.process.status << run.process.err;
+      EXPECT_EQ(run.process.err, "") << name;
+      expect_whole(run, 6, name);
+      EXPECT_EQ(run.runs[0].json_text("state"), "finished") << name;
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(ProcessEnd, ProgramUnder, ::testing::Values("faketime", "fakeroot", "jemalloc.sh"));
+
+// The address sanitizer's runtime replaces the allocator, memory functions and pthread_create.
+TEST(ProcessEnd, AProgramWithTheAddressSanitizerIsCapturedThroughTheSecondRoad) {
+  for (const char* way : {"return", "raw"}) {
+    ShimTest test(Road::kGlvnd);
+    const ShimRun run = test.run({TILEPRESS_PROCESS_END_ASAN, "6", way}, {{"ASAN_OPTIONS", "detect_leaks=0"}});
+    EXPECT_TRUE(run.process.exited_with(7)) << run.process.err;
+    expect_whole(run, 6, way);
+  }
+}
+
+}  // namespace
+}  // namespace tilepress::testing
