@@ -122,6 +122,10 @@ Capture::Take Capture::take(const Shot& shot, CaptureWorker& worker) {
     report(turn.surface, reason);
     return ends_as(Outcome::kUnsupported);
   }
+  if (worker.ended()) {
+    report(turn.surface, "not captured: presented by an exit handler or destructor, after the capture ended");
+    return ends_as(Outcome::kNotCaptured);
+  }
   const uint64_t wait_ns = now_ns();
   take.frame = worker.queue().acquire(options_.on_full == OnFull::kBlock);
   if (take.frame == nullptr) return ends_as(Outcome::kDropped);

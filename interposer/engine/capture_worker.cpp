@@ -68,11 +68,9 @@ void RoleCounts::settle() {
 
 CaptureWorker::CaptureWorker(const RunOptions& options, const RunInfo& info, CaptureCounts& counts,
                              const ShimLog& log)
-    : options_(options),
-      info_(info),
-      counts_(counts),
-      log_(log),
-      queue_(options.queue_frames, [this] { return task_.program_gone(); }) {}
+    : options_(options), info_(info), counts_(counts), log_(log), queue_(options.queue_frames, [this] {
+        return task_.program_gone();
+      }) {}
 
 bool CaptureWorker::start() {
   alive_ = thread_.start("tilepress", [this] { run(); });
@@ -155,18 +153,15 @@ void CaptureWorker::presented() {
     constexpr uint64_t kPatience = 2'000'000'000;
     const uint64_t end_ns = now_ns() + kPatience;
     std::unique_lock lock(opened_mutex_);
-    while (!opened_ && alive() && !in_place_ && now_ns() < end_ns) opened_changed_.wait(lock, kPatience / 20);
+    while (!opened_ && alive() && !ended_ && now_ns() < end_ns) opened_changed_.wait(lock, kPatience / 20);
   }
-  if (in_place_) work_here();
+  if (ended_) count_after_end();
 }
 
-void CaptureWorker::work_here() {
+void CaptureWorker::count_after_end() {
   const std::lock_guard lock(finish_mutex_);
   try {
-    do {
-      CapturedFrame* frame = queue_.pending() == 0 ? nullptr : queue_.next();
-      take(frame);
-    } while (queue_.pending() > 0);
+    take(nullptr);
     end_run();
   } catch (const std::exception& error) {
     give_up(error.what());
@@ -204,7 +199,7 @@ CaptureWorker::Surface* CaptureWorker::known_surface(const CapturedFrame& frame)
 void CaptureWorker::process(const CapturedFrame& frame) {
   Surface* surface = known_surface(frame);
   // Memory is had for the first frame of a surface: always on one thread, or it would come from two heaps.
-  const bool may_yield = options_.on_full == OnFull::kBlock && surface != nullptr && !in_place_;
+  const bool may_yield = options_.on_full == OnFull::kBlock && surface != nullptr;
   if (surface == nullptr) {
     if (!append_surface(frame)) return give_up(writer_.path() + "/surfaces.csv: cannot be written");
     surface = &surfaces_
@@ -299,11 +294,10 @@ void CaptureWorker::give_up(const std::string& reason) {
 
 void CaptureWorker::finish() {
   // Bounded at every step: the caller may be a signal handler on top of any thread of the program.
-  if (in_place_ || !queue_.close()) return;
+  if (ended_ || !queue_.close()) return;
   if (!finish_mutex_.try_lock()) return;
   thread_.join();
-  in_place_ = true;
-  if (alive()) queue_.open_again();
+  ended_ = true;
   finish_mutex_.unlock();
 }
 

@@ -56,10 +56,12 @@ class CaptureWorker {
   bool start();
   FrameQueue& queue() { return queue_; }
   /// Writes out all pending frames, ends the run and the thread. Does nothing if that cannot be done safely.
-  /// Frames that are presented later are worked on by the thread that presents them.
   void finish();
+  /// True after finish(). Frames that are presented later are counted and not read: a driver that frees its
+  /// tables in exit handlers of its own, as Mesa does, would read what is freed.
+  bool ended() const { return ended_; }
   /// To be called after each present: waits for the run folder after the first one, so that the run outlives
-  /// the program from then on, and does the work after finish().
+  /// the program from then on. After finish() writes the counts.
   void presented();
   /// False once the run cannot be written any more (full disk, unwritable folder).
   bool alive() const { return alive_.load(std::memory_order_relaxed); }
@@ -72,7 +74,7 @@ class CaptureWorker {
   void run();
   void work_until_closed();
   void take(CapturedFrame* frame);
-  void work_here();
+  void count_after_end();
   void end_run();
   bool create_directory();
   /// Null before its first frame.
@@ -107,8 +109,8 @@ class CaptureWorker {
   PlainMutex finish_mutex_;
   PlainMutex opened_mutex_;
   PlainCondition opened_changed_;
-  std::atomic<bool> opened_{false};   ///< the run folder is there, or will never be
-  std::atomic<bool> in_place_{false};  ///< no thread any more: work is done where frames are presented
+  std::atomic<bool> opened_{false};  ///< the run folder is there, or will never be
+  std::atomic<bool> ended_{false};   ///< finish() has joined the thread
   std::atomic<bool> alive_{true};
 };
 

@@ -96,7 +96,7 @@ extern "C" __attribute__((visibility("default"))) const TilepressEngine* tilepre
   if (host == nullptr || host->version != TILEPRESS_ENGINE_VERSION) return nullptr;
   tilepress::host = *host;
   // Handlers run from the last to the first, and before all destructors: libraries that this engine calls
-  // into are still whole then. Frames that are presented later are worked on by who presents them.
+  // into are still whole then. Frames that are presented later are counted, and not read.
   std::atexit([] { tilepress::finish(); });
   at_quick_exit([] { tilepress::finish(); });
   return &tilepress::kEngine;

@@ -42,8 +42,6 @@ class FrameQueue {
   /// No more frames; what is pending is still handed out. Gives up, returning false, if the lock cannot be
   /// had within a second: the caller may be a signal handler on top of a thread that holds it.
   bool close();
-  /// Undoes close().
-  void open_again() { closed_ = false; }
   bool closed_and_empty();
   bool closed() const { return closed_; }
   uint32_t depth() const { return depth_; }

@@ -61,12 +61,17 @@ TEST_P(EndWithoutExit, BySignalLosesNoFrameEither) {
 }
 INSTANTIATE_TEST_SUITE_P(ProcessEnd, EndWithoutExit, ::testing::Values(Road::kPreload, Road::kGlvnd));
 
-TEST(ProcessEnd, FramesPresentedWhileTheProcessEndsAreCaptured) {
+// Mesa frees what glReadPixels needs in an exit handler that it registers at the first read.
+TEST(ProcessEnd, FramesPresentedByExitHandlersAndDestructorsAreCountedAndNotRead) {
   for (const char* way : {"handler", "destructor"}) {
     ShimTest test;
     const ShimRun run = end_in(test, way, 4);
     EXPECT_TRUE(run.process.exited_with(7)) << way << run.process.status;
-    expect_whole(run, 5, way);
+    ASSERT_EQ(run.runs.size(), 1u) << way << run.log;
+    EXPECT_EQ(run.runs[0].frames.size(), 4u) << way;
+    EXPECT_EQ(run.runs[0].json_number("seen"), 5) << way;
+    EXPECT_EQ(run.runs[0].json_number("captured"), 4) << way;
+    EXPECT_EQ(run.runs[0].json_number("not_captured"), 1) << way;
     EXPECT_EQ(run.runs[0].json_text("state"), "finished") << way;
   }
 }
@@ -84,8 +89,9 @@ TEST(ProcessEnd, TheProgramMayChangeItsUserAndHasNoStrangeChild) {
 TEST(ProcessEnd, WithoutATaskTheFramesThatAreLostAreCounted) {
   for (const char* way : {"raw", "kill", "exec"}) {
     ShimTest test;
-    const ShimRun run = end_in(test, way, 40, {}, {{"LD_PRELOAD", TILEPRESS_PRELOAD ":/none/vgpreload_"},
-                                                   {"TILEPRESS_QUEUE", "64"}});
+    const ShimRun run =
+        end_in(test, way, 40, {},
+               {{"LD_PRELOAD", TILEPRESS_PRELOAD ":/none/vgpreload_"}, {"TILEPRESS_QUEUE", "64"}});
     EXPECT_TRUE(on_a_thread(run)) << run.log;
     ASSERT_EQ(run.runs.size(), 1u) << way;
     RunRecord record;
@@ -104,7 +110,8 @@ TEST_P(ProgramUnder, AnotherPreloadedLibraryEndsAsWithout) {
   const std::string name = GetParam();
   std::vector<std::string> wrapper = {name};
   if (name == "faketime") wrapper.push_back("2020-01-01 00:00:00");
-  if (name == "jemalloc.sh") wrapper = {"env", std::string("LD_PRELOAD=") + TILEPRESS_PRELOAD + ":libjemalloc.so.2"};
+  if (name == "jemalloc.sh")
+    wrapper = {"env", std::string("LD_PRELOAD=") + TILEPRESS_PRELOAD + ":libjemalloc.so.2"};
   for (const Road road : {Road::kPreload, Road::kGlvnd}) {
     if (road == Road::kGlvnd && name == "jemalloc.sh") wrapper.back() = "LD_PRELOAD=libjemalloc.so.2";
     for (int round = 0; round < 4; ++round) {
@@ -123,7 +130,8 @@ INSTANTIATE_TEST_SUITE_P(ProcessEnd, ProgramUnder, ::testing::Values("faketime",
 TEST(ProcessEnd, AProgramWithTheAddressSanitizerIsCapturedThroughTheSecondRoad) {
   for (const char* way : {"return", "raw"}) {
     ShimTest test(Road::kGlvnd);
-    const ShimRun run = test.run({TILEPRESS_PROCESS_END_ASAN, "6", way}, {{"ASAN_OPTIONS", "detect_leaks=0"}});
+    const ShimRun run =
+        test.run({TILEPRESS_PROCESS_END_ASAN, "6", way}, {{"ASAN_OPTIONS", "detect_leaks=0"}});
     EXPECT_TRUE(run.process.exited_with(7)) << run.process.err;
     expect_whole(run, 6, way);
   }
