@@ -67,6 +67,14 @@ TEST(ForeignPrograms, AProgramOfTheMemorySanitizerRuns) {
   expect_the_same({foreign("clang-memory")}, launcher_environment(), 7);
 }
 
+TEST(ForeignPrograms, AReportAtExitStillDecidesTheStatus) {
+  const std::vector<std::string> command = {foreign("race-and-exit")};
+  const ProcessResult without = run_process(command, {{"LD_PRELOAD", ""}});
+  const ProcessResult with = run_process(command, launcher_environment());
+  EXPECT_TRUE(without.exited_with(66)) << without.err;
+  EXPECT_TRUE(with.exited_with(66)) << with.err;
+}
+
 TEST(ForeignPrograms, DefaultOptionsOfTheProgramDoNotKeepAsanFromStarting) {
   expect_the_same({foreign("asan-own-options")}, launcher_environment(), 7);
 }
