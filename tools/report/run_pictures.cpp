@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "images/image_library.h"
+#include "images/png_image.h"
 #include "live/heat_colors.h"
 
 namespace tilepress {
@@ -44,10 +45,9 @@ std::string png_uri(const std::vector<uint8_t>& pixels, uint32_t width, uint32_t
 
 std::string thumbnail_of(const std::string& path, RunPicture& picture) {
   std::string error;
-  const ImageLibrary* library = image_library(error);
-  const auto file = library == nullptr ? nullptr : library->open(path, error);
+  const auto file = open_png(path, error);
   ImageHeader header;
-  if (file == nullptr || !file->header(0, header) || header.channels < 3) return "";
+  if (file == nullptr || !file->header(0, header, error) || header.channels < 3) return "";
   const uint32_t width = header.width, height = header.height;
   const size_t channels = header.channels;
   std::vector<uint8_t> pixels(size_t{width} * height * channels);
