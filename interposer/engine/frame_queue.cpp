@@ -20,6 +20,12 @@ void FrameQueue::List::append(CapturedFrame* frame) {
   last = frame;
 }
 
+void FrameQueue::List::prepend(CapturedFrame* frame) {
+  frame->next = first;
+  if (first == nullptr) last = frame;
+  first = frame;
+}
+
 CapturedFrame* FrameQueue::List::take_first() {
   CapturedFrame* frame = first;
   if (frame != nullptr) first = frame->next;
@@ -72,7 +78,7 @@ void FrameQueue::submit(CapturedFrame* frame) {
 void FrameQueue::release(CapturedFrame* frame) {
   const Lock lock(mutex_);
   frame->unwanted = frame->awaited;  // the late reader still writes to it
-  if (!frame->unwanted) free_.append(frame);
+  if (!frame->unwanted) free_.prepend(frame);
 }
 
 void FrameQueue::arrived(CapturedFrame* frame, bool whole) {
@@ -80,7 +86,7 @@ void FrameQueue::arrived(CapturedFrame* frame, bool whole) {
     const Lock lock(mutex_);
     frame->awaited = false;
     frame->lost = !whole;
-    if (frame->unwanted) free_.append(frame);
+    if (frame->unwanted) free_.prepend(frame);
     frame->unwanted = false;
   }
   changed_.notify_all();
@@ -143,7 +149,7 @@ CapturedFrame* FrameQueue::next() {
 void FrameQueue::done(CapturedFrame* frame) {
   {
     const Lock lock = lock_of_worker();
-    if (!abandoned_) free_.append(frame);
+    if (!abandoned_) free_.prepend(frame);
     --pending_;
   }
   changed_.notify_all();

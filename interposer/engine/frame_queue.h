@@ -57,6 +57,7 @@ class FrameQueue {
     CapturedFrame* first = nullptr;
     CapturedFrame* last = nullptr;
     void append(CapturedFrame* frame);
+    void prepend(CapturedFrame* frame);
     CapturedFrame* take_first();
   };
   using Lock = std::unique_lock<PlainMutex>;
