@@ -95,7 +95,7 @@ class BadInput(CliCase):
         self.assertEqual(done.returncode, NOTHING)
         self.assertEqual(lines[0], "tilepress: true: no frame captured")
         self.assertIn("eglSwapBuffers", lines[1])
-        self.assertIn("seen: no process asked for any of them", done.stderr.decode())
+        self.assertIn("seen: nothing: no process that reaches the session folder", done.stderr.decode())
         self.assert_absent("out")
 
 
