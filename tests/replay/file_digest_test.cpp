@@ -3,22 +3,22 @@
 
 #include <gtest/gtest.h>
 
-#include <string_view>
+#include <cstdio>
+#include <fstream>
 
 namespace tilepress {
 namespace {
 
-std::span<const uint8_t> bytes_of(std::string_view text) {
-  return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
+std::string digest_of(const std::string& text) {
+  const std::string path = testing::TempDir() + "tilepress_file_digest_test";
+  std::ofstream(path, std::ios::binary) << text;
+  std::string error;
+  const auto digest = sha256_of_file(path, error);
+  std::remove(path.c_str());
+  return digest.value_or(error);
 }
 
-std::string digest_of(std::string_view text) {
-  Sha256 digest;
-  digest.add(bytes_of(text));
-  return digest.finish();
-}
-
-TEST(Sha256, GivesTheDigestsOfTheStandard) {
+TEST(FileDigest, GivesTheDigestsOfTheStandard) {
   EXPECT_EQ(digest_of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(digest_of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(digest_of("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
@@ -27,14 +27,12 @@ TEST(Sha256, GivesTheDigestsOfTheStandard) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-TEST(Sha256, IsTheSameInPiecesOfAnySize) {
-  const std::string text(300, 'x');
-  for (size_t piece = 1; piece < 130; ++piece) {
-    Sha256 digest;
-    for (size_t at = 0; at < text.size(); at += piece)
-      digest.add(bytes_of(std::string_view(text).substr(at, piece)));
-    EXPECT_EQ(digest.finish(), digest_of(text)) << piece;
-  }
+TEST(FileDigest, NamesTheReasonForAFileThatCannotBeRead) {
+  std::string error;
+  EXPECT_FALSE(sha256_of_file("/nonexistent/trace", error));
+  EXPECT_EQ(error, "No such file or directory");
+  EXPECT_FALSE(sha256_of_file("/", error));
+  EXPECT_EQ(error, "Is a directory");
 }
 
 }  // namespace
