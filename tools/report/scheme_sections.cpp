@@ -120,8 +120,8 @@ Section energy_section(const Batch& batch) {
       "structures, static and dynamic; rate "
       "is the category's harmonic mean. RAS's and RED's own hardware is not in the paper: they are left out, "
       "and HDCP's figure holds DCP's "
-      "part only. The paper's text prints 199.6 mW for DRAM, and 429.8 mW as the rest of 629.4 mW; the two "
-      "look swapped: 451.2 pJ/B × 949.21 MB/s = 428 mW.",
+      "part only. The paper's 199.6 mW is the dynamic power of its own display: 720×1280 RGBA8 written and "
+      "read 60 times a second, 442.37 MB/s × 451.2 pJ/B. The other 429.8 mW of its 629.4 mW are static.",
       model.dcp_pj_per_byte, model.dram_pj_per_byte);
   Table& table = out.table;
   table.id = "table-energy";
