@@ -54,8 +54,8 @@ uint64_t rows_of(const ContextVersion& version, const KnownContext& context, con
   return rows;
 }
 
-/// The context's strings and numbers tell whether it is the one that the thread knows. A string of extensions
-/// may lie where another context's lay; the version tells those apart.
+/// Recognises the thread's last context by the addresses of its strings and by its version. The version is
+/// needed because a string of extensions may lie where another context's lay.
 uint64_t rows_of_current(const GlFunctions& gl, const ContextVersion& version) {
   static thread_local KnownContext known;
   KnownContext now = {};
