@@ -280,13 +280,6 @@ class Interruptions(ReplayCase):
         return subprocess.Popen([COMMAND, "replay", "-o", "out", *words], cwd=self.folder, start_new_session=True,
                                 env={**os.environ, **NO_DISPLAY, **(env or {})}, stderr=subprocess.PIPE)
 
-    def wait_until(self, condition, process):
-        deadline = time.monotonic() + 200
-        while not condition():
-            self.assertIsNone(process.poll(), "ended before the signal")
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.01)
-
     def has_rows(self, name):
         paths = glob.glob(self.path(f"out/{name}.partial/*/runs/*/frames.csv"))
         return any(len(read_rows(path)) > 2 for path in paths)

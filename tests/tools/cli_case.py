@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 COMMAND = os.path.abspath(sys.argv[1])
@@ -55,6 +56,13 @@ class CliCase(unittest.TestCase):
         self.assertEqual(done.stderr.decode(), f"tilepress: {line}\n")
         self.assertEqual(done.stdout, b"")
         self.assertEqual(done.returncode, status)
+
+    def wait_until(self, condition, process):
+        deadline = time.monotonic() + 200
+        while not condition():
+            self.assertIsNone(process.poll(), "ended before the signal")
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
 
     def assert_absent(self, name):
         self.assertFalse(os.path.exists(self.path(name)), f"{name} was made")

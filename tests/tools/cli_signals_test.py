@@ -5,7 +5,6 @@ Usage: cli_signals_test.py TILEPRESS GOLDEN_FOLDER [TEST...]"""
 import os
 import signal
 import subprocess
-import time
 
 from cli_case import COMMAND, CliCase, golden, main, read_json, read_rows
 
@@ -18,13 +17,6 @@ class SignalsCase(CliCase):
         """In a session of its own, so that a signal to its group is a terminal's ^C."""
         return subprocess.Popen([COMMAND, *words], cwd=self.folder, start_new_session=True, stderr=subprocess.PIPE,
                                 **{"stdin": subprocess.DEVNULL, **further})
-
-    def wait_until(self, condition, process):
-        deadline = time.monotonic() + 200
-        while not condition():
-            self.assertIsNone(process.poll(), "ended before the signal")
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.01)
 
     def row_count(self, path):
         return len(read_rows(self.path(path))) if os.path.exists(self.path(path)) else 0
