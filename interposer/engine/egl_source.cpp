@@ -199,9 +199,8 @@ class EglSource final : public PresentSource {
   bool can_come_back(EGLDisplay display) const {
     const EGLSurface draw = egl_.GetCurrentSurface(EGL_DRAW), read = egl_.GetCurrentSurface(EGL_READ);
     if (context_is_destroyed(display)) return false;
-    return draw == EGL_NO_SURFACE && read == EGL_NO_SURFACE
-               ? true
-               : is_known(display, draw) && is_known(display, read);
+    if (draw == EGL_NO_SURFACE && read == EGL_NO_SURFACE) return true;
+    return is_known(display, draw) && is_known(display, read);
   }
 
   bool is_known(EGLDisplay display, EGLSurface surface) const {
