@@ -11,7 +11,7 @@ Collector& Collectors::of(const FvcConfig& config, const FormatTraits& format) {
 
 void Collectors::open(bool with_metrics) {
   with_metrics_ = with_metrics;
-  loads_slots_ = kernels().byte_permutes && !collectors_.empty();
+  loads_slots_ = slot_kernels().byte_permutes && !collectors_.empty();
 }
 
 void Collectors::begin_frame(uint64_t ordinal, size_t pixels) {

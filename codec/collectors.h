@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "dcp/collector.h"
-#include "few_color_search.h"
-#include "simd/kernels.h"
+#include "pixels/few_color_search.h"
+#include "pixels/pixel_kernels.h"
 #include "statistics/frame_metrics.h"
 
 namespace tilepress {
@@ -71,7 +71,7 @@ inline bool Collectors::load(const uint32_t* top_left, uint32_t stride, uint32_t
     settle_run();  // so that the members are those the block meets
     uniform = collectors_.front()->load(top_left, stride, pixels);
   } else {
-    uniform = kernels().load_traversal(top_left, stride, pixels);
+    uniform = pixel_kernels().load_traversal(top_left, stride, pixels);
   }
   if (uniform) return true;
   few_ = wants_few_ ? few_color_search_.look(pixels) : nullptr;

@@ -15,7 +15,7 @@
 #include "memory/surface_store.h"
 #include "ras/ras_memo.h"
 #include "row_prefetch.h"
-#include "simd/kernels.h"
+#include "pixels/pixel_kernels.h"
 #include "solid_blocks.h"
 #include "tilepress/scheme.h"
 #include "tilepress/tiler.h"
@@ -212,7 +212,7 @@ void SurfaceEngine::State::collect(const BlockContext& block) {
 uint32_t SurfaceEngine::State::repeat_last(uint32_t bx, uint32_t bx_end, uint32_t by) {
   const uint32_t* top_left = now.row(by * kBlockSide) + bx * kBlockSide;
   const uint32_t color = solids.color(last_place);
-  const uint32_t count = kernels().solid_blocks(top_left, now.stride(), color, bx_end - bx);
+  const uint32_t count = pixel_kernels().solid_blocks(top_left, now.stride(), color, bx_end - bx);
   if (count != 0) repeat_solid(last_place, bx, count, by);
   return count;
 }

@@ -23,8 +23,8 @@
 // row by row, two rows of 32-bit pixels a line; `order=quad` takes them in traversal order.
 #include <optional>
 
-#include "memory_lines.h"
-#include "raw_bits.h"
+#include "pixels/memory_lines.h"
+#include "pixels/raw_bits.h"
 #include "scheme_factory.h"
 
 namespace tilepress {

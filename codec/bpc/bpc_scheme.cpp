@@ -11,7 +11,7 @@
 // line costs more than its 1024 bits. Lines take the block's pixels row by row, four rows of 32-bit pixels a
 // line; `order=quad` takes them in traversal order. Two 16-bit pixels make a word.
 #include "bpc/bpc_line.h"
-#include "memory_lines.h"
+#include "pixels/memory_lines.h"
 #include "scheme_factory.h"
 
 namespace tilepress {

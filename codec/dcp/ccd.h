@@ -7,9 +7,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "simd/index_widths.h"
-#include "simd/kernels.h"
-#include "simd/probe_table.h"
+#include "dcp/index_widths.h"
+#include "dcp/probe_table.h"
+#include "dcp/slot_table.h"
+#include "pixels/few_colors.h"
 #include "tilepress/bit_io.h"
 #include "tilepress/block.h"
 #include "tilepress/scheme.h"

@@ -74,7 +74,7 @@ void Collector::look_up(const uint32_t* pixels, bool uniform, const FewColors* f
 }
 
 bool Collector::load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels) {
-  const bool uniform = kernels().load_slots(top_left, stride, pixels, lookups_);
+  const bool uniform = slot_kernels().load(top_left, stride, pixels, lookups_);
   has_found_ = !uniform && lookups_.members != nullptr;
   if (!uniform && wanted && has_ccd_ && lookups_.dictionary == nullptr) look_up(pixels, false, nullptr);
   return uniform;

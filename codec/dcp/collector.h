@@ -8,7 +8,7 @@
 #include "dcp/ccd.h"
 #include "dcp/fvc.h"
 #include "dcp/lfc_collector.h"
-#include "simd/kernels.h"
+#include "dcp/slot_kernels.h"
 #include "tilepress/block.h"
 #include "tilepress/pixel_format.h"
 #include "tilepress/scheme_spec.h"

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "dcp/vdcp.h"
-#include "simd/kernels.h"
+#include "dcp/sub_blocks.h"
 
 namespace tilepress {
 
@@ -19,8 +18,8 @@ bool DcpFamilyDecoder::begin_frame(BitReader& tables, uint64_t table_bits, uint3
   if (table_bits % (pixel_bits_ + 1) != 0) return false;
   if (!rccd_.read(tables, table_bits / (pixel_bits_ + 1), pixel_bits_)) return false;
   if (rccd_.slots > 1u << index_bits_) return false;
-  reads_at_once_ =
-      kernels().byte_permutes && index_bits_ <= kMaxWrittenBits && rccd_.colors.size() <= colors_.size();
+  reads_at_once_ = sub_block_kernels().read != nullptr && index_bits_ <= kMaxKernelWidth &&
+                   rccd_.colors.size() <= colors_.size();
   if (reads_at_once_) std::copy(rccd_.colors.begin(), rccd_.colors.end(), colors_.begin());
   return true;
 }
@@ -52,8 +51,8 @@ bool DcpFamilyDecoder::read_at_once(const uint64_t marks[2], uint32_t mark_bits,
   const uint8_t* bytes = payload.at_byte(64);
   if (bytes == nullptr) return false;
   const auto known = static_cast<uint32_t>(rccd_.colors.size());
-  const uint32_t bits =
-      kernels().read_indices(bytes, marks, mark_bits, index_bits_, colors_.data(), known, out.pixels.data());
+  const uint32_t bits = sub_block_kernels().read(bytes, marks, mark_bits, index_bits_, colors_.data(), known,
+                                                 out.pixels.data());
   if (bits == kNotAllIndices) return false;
   payload.skip(bits);
   return true;

@@ -5,7 +5,8 @@
 #include <bit>
 
 #include "dcp/ccd.h"
-#include "raw_bits.h"
+#include "dcp/sub_blocks.h"
+#include "pixels/raw_bits.h"
 #include "tilepress/scheme.h"
 
 namespace tilepress {
@@ -27,6 +28,9 @@ class DcpFamilyEncoder : public BlockEncoder {
  protected:
   /// True if sub-blocks may be looked up: there is a CCD and the scheme is on.
   bool active() const { return ccd_ != nullptr && !off_; }
+  SubBlocks sub_blocks(const BlockContext& block) const {
+    return {block.pixels, block.ccd_indices, active() ? block.ccd_widths : kAllRawWidths.data()};
+  }
   uint32_t raw_sub_block_bits() const { return kSubBlockPixels * pixel_bits_; }
   uint32_t raw_block_bits() const { return kBlockPixels * pixel_bits_; }
 

@@ -9,9 +9,8 @@
 
 #include "dcp/algorithm1.h"
 #include "dcp/dcp_family.h"
-#include "dcp/vdcp.h"
+#include "dcp/sub_blocks.h"
 #include "scheme_factory.h"
-#include "simd/kernels.h"
 
 namespace tilepress {
 namespace {
@@ -34,23 +33,23 @@ class DcpEncoder : public DcpFamilyEncoder {
   }
   uint32_t measure(const BlockContext& block) const override {
     if (!active()) return raw_block_bits();
-    const uint32_t compressed = kernels().count_up_to(block.ccd_widths, width_);
+    const uint32_t compressed = count_up_to(block.ccd_widths, width_);
     return kSubBlockPixels * (compressed * width_ + (kSubBlocks - compressed) * pixel_bits_);
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     uint8_t widths[kSubBlocks];
     const uint32_t marks = choose_widths(block, widths);
     if (!off_) csb.put(marks, kSubBlocks);
-    write_indices(block, widths, width_, pixel_bits_, payload);
+    write_payload({block.pixels, block.ccd_indices, widths}, width_, pixel_bits_, payload);
   }
   StoredBlock store(const BlockContext& block, std::span<uint8_t> slot,
                     std::span<uint8_t> csb) const override {
-    if (off_ || !writes_at_once(width_, pixel_bits_)) return BlockEncoder::store(block, slot, csb);
+    if (off_ || !has_write_kernel(width_, pixel_bits_)) return BlockEncoder::store(block, slot, csb);
     uint8_t widths[kSubBlocks];
     const uint64_t marks = bit_io::big_endian(uint64_t{choose_widths(block, widths)} << (64 - kSubBlocks));
     std::memcpy(csb.data(), &marks, sizeof marks);
     const WrittenBlock written =
-        kernels().write_sub_blocks(block.pixels, block.ccd_indices, widths, kMaxWrittenBits, slot.data());
+        sub_block_kernels().write(block.pixels, block.ccd_indices, widths, kMaxKernelWidth, slot.data());
     return {written.bits, written.clean_bytes};
   }
 
@@ -61,7 +60,7 @@ class DcpEncoder : public DcpFamilyEncoder {
   /// Widths of the sub-blocks: that of the frame, or kRawWidth. Returns the CSB bits.
   uint32_t choose_widths(const BlockContext& block, uint8_t* widths) const {
     uint32_t marks = 0;
-    const uint8_t* needed = vdcp_widths(block, active());
+    const uint8_t* needed = sub_blocks(block).widths;
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
       const bool compressed = needed[sub] <= width_;
       widths[sub] = compressed ? static_cast<uint8_t>(width_) : kRawWidth;

@@ -10,7 +10,6 @@
 #include "dcp/dcp_family.h"
 #include "huffman.h"
 #include "scheme_factory.h"
-#include "simd/kernels.h"
 
 namespace tilepress {
 namespace {
@@ -43,8 +42,9 @@ class HuffDcpEncoder final : public DcpFamilyEncoder {
   uint32_t measure(const BlockContext& block) const override {
     if (!active()) return raw_block_bits();
     if (block.uniform) return kSubBlocks * sub_block_bits(block, 0);
-    if (kernels().byte_permutes && lengths_.size() <= first_lengths_.size())
-      return kernels().code_sum(block.ccd_indices, first_lengths_.data(), raw_sub_block_bits());
+    if (const auto code_sum = sub_block_kernels().code_sum;
+        code_sum != nullptr && lengths_.size() <= first_lengths_.size())
+      return code_sum(block.ccd_indices, first_lengths_.data(), raw_sub_block_bits());
     uint32_t bits = 0;
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub) bits += sub_block_bits(block, sub);
     return bits;

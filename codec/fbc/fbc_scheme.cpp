@@ -19,7 +19,7 @@
 #include "color_table.h"
 #include "frequent_colors.h"
 #include "huffman.h"
-#include "raw_bits.h"
+#include "pixels/raw_bits.h"
 #include "scheme_factory.h"
 
 namespace tilepress {

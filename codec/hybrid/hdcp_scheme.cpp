@@ -6,7 +6,7 @@
 //   tables    N rCCD slots
 // Where the coverage threshold switches DCP off, the frame is a frame of RAS: 2 CSB bits a block, no tables.
 #include "dcp/dcp_family.h"
-#include "dcp/vdcp.h"
+#include "dcp/sub_blocks.h"
 #include "ras/ras_block.h"
 #include "scheme_factory.h"
 
@@ -37,8 +37,10 @@ class HdcpEncoder final : public DcpFamilyEncoder {
   uint32_t measure(const BlockContext& block) const override { return choose(block).bits; }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     const uint32_t cls = classes_.class_of(block.ras_bits);
-    if (choose(block).vdcp)
-      return vdcp_encode(block, active(), index_bits_, pixel_bits_, kSubBlockCsbBits, payload, csb);
+    if (choose(block).vdcp) {
+      write_widths(sub_blocks(block).widths, kSubBlockCsbBits, csb);
+      return write_payload(sub_blocks(block), index_bits_, pixel_bits_, payload);
+    }
     if (off_)
       csb.put(cls, classes_.csb_bits());
     else
@@ -60,7 +62,7 @@ class HdcpEncoder final : public DcpFamilyEncoder {
   Choice choose(const BlockContext& block) const {
     const uint32_t ras = classes_.bits_of(classes_.class_of(block.ras_bits));
     if (off_) return {false, ras};
-    const uint32_t vdcp = active() ? vdcp_measure(block, pixel_bits_) : raw_block_bits();
+    const uint32_t vdcp = active() ? payload_bits(block.ccd_widths, pixel_bits_) : raw_block_bits();
     if (bursts(vdcp) <= bursts(ras)) return {true, vdcp};
     return {false, ras};
   }

@@ -17,7 +17,7 @@
 
 #include "color_table.h"
 #include "frequent_colors.h"
-#include "raw_bits.h"
+#include "pixels/raw_bits.h"
 #include "scheme_factory.h"
 
 namespace tilepress {

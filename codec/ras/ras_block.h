@@ -1,9 +1,9 @@
 // RAS block: a stream padded to its size class, or raw; shared by RAS and the hybrid.
 #pragma once
 
+#include "pixels/raw_bits.h"
 #include "ras/ras_classes.h"
 #include "ras/ras_stream.h"
-#include "raw_bits.h"
 #include "tilepress/scheme.h"
 
 namespace tilepress {

@@ -1,4 +1,4 @@
-// RAS stream: planes, residuals, writing and reading. The choice of k is the kernels' (simd/kernels.h).
+// RAS stream: planes, residuals, writing and reading. The kernels predict and choose k (ras_kernels.cpp).
 #include "ras/ras_stream.h"
 
 #include <algorithm>
@@ -8,8 +8,7 @@
 #include <iterator>
 #include <numeric>
 
-#include "ras/ras_samples.h"
-#include "simd/kernels.h"
+#include "ras/ras_kernels.h"
 
 namespace tilepress {
 namespace {
@@ -74,7 +73,7 @@ uint32_t join_pixel(const int16_t* sample, const FormatTraits& format, bool ycoc
 void load_samples(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg,
                   int16_t* samples) {
   if (samples_are_bytes(format, ycocg)) {
-    kernels().widen_bytes(top_left, stride, samples);
+    ras_kernels().widen_bytes(top_left, stride, samples);
   } else {
     for (uint32_t y = 0; y < kBlockSide; ++y)
       for (uint32_t x = 0; x < kBlockSide; ++x) {
@@ -145,7 +144,7 @@ void write_planes(const int16_t* first, const RasGroups& groups, const PlaneWidt
 uint32_t ras_stream_bits(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg) {
   int16_t samples[kRasSamples];
   load_samples(top_left, stride, format, ycocg, samples);
-  return stream_bits(kernels().ras_code_bits(samples), plane_widths(format, ycocg));
+  return stream_bits(ras_kernels().code_bits(samples), plane_widths(format, ycocg));
 }
 
 uint32_t ras_uniform_bits(const FormatTraits& format, bool ycocg) {
@@ -156,7 +155,7 @@ void ras_stream_write(const Block& block, const FormatTraits& format, bool ycocg
   int16_t samples[kRasSamples];
   load_samples(block.pixels.data(), kBlockSide, format, ycocg, samples);
   RasGroups groups;
-  kernels().ras_groups(samples, groups);
+  ras_kernels().groups(samples, groups);
   const PlaneWidths planes = plane_widths(format, ycocg);
   const int16_t* first = samples + ras_sample_index(0, 0);
   const uint32_t bits = stream_bits(std::accumulate(groups.lengths, std::end(groups.lengths), 0u), planes);
@@ -215,7 +214,7 @@ bool read_residuals(BitReader& stream, uint32_t largest, int16_t* residuals) {
 
 /// False: a sample or a channel is out of its range, so no block was encoded to these samples.
 bool join_samples(const int16_t* samples, const FormatTraits& format, bool ycocg, Block& out) {
-  if (samples_are_bytes(format, ycocg)) return kernels().narrow_bytes(samples, out.pixels.data());
+  if (samples_are_bytes(format, ycocg)) return ras_kernels().narrow_bytes(samples, out.pixels.data());
   uint32_t stray = 0;
   for (uint32_t i = 0; i < kBlockPixels; ++i) {
     for (uint32_t p = 0; p < 4; ++p)
@@ -239,7 +238,7 @@ bool ras_stream_read(BitReader& in, const FormatTraits& format, bool ycocg, Bloc
   for (uint32_t p = 0; p < planes.count; ++p)
     if (!read_residuals(in, 2u << planes.first_bits[p], samples + p)) return false;
   if (in.overran()) return false;
-  kernels().ras_restore(samples);
+  ras_kernels().restore(samples);
   return join_samples(samples, format, ycocg, out);
 }
 

@@ -4,7 +4,7 @@
 //   CSB       2 bits: 0 = eight 4×2 regions, 1 = sixteen 2×2 regions, 2 = raw
 //   payload   one colour per region, regions in raster order; or 64 raw pixels
 //   tables    none
-#include "raw_bits.h"
+#include "pixels/raw_bits.h"
 #include "scheme_factory.h"
 
 namespace tilepress {

@@ -5,8 +5,8 @@
 #include <array>
 #include <utility>
 
-#include "simd/kernels.h"
-#include "simd/mask_runs.h"
+#include "cpu/mask_runs.h"
+#include "pixels/pixel_kernels.h"
 
 namespace tilepress {
 namespace {
@@ -41,17 +41,17 @@ void for_each_pixel(const PixelPlane& frame, const Visit& visit) {
 /// visit(colour, length) for each run of equal pixels in pieces of a row.
 template <typename Visit>
 void for_each_run(const PixelPlane& frame, uint32_t y, const Visit& visit) {
-  const Kernels& kernel = kernels();
+  const PixelKernels& kernels = pixel_kernels();
   const uint32_t* row = frame.row(y);
-  uint32_t last[kLanes];
-  for (uint32_t x = 0; x < frame.width(); x += kLanes) {
-    const uint32_t inside = std::min(kLanes, frame.width() - x);
+  uint32_t last[kBlockPixels];
+  for (uint32_t x = 0; x < frame.width(); x += kBlockPixels) {
+    const uint32_t inside = std::min(kBlockPixels, frame.width() - x);
     const uint32_t* pixels = row + x;
-    if (inside < kLanes) {
-      std::fill(std::copy_n(pixels, inside, last), last + kLanes, pixels[inside - 1]);
+    if (inside < kBlockPixels) {
+      std::fill(std::copy_n(pixels, inside, last), last + kBlockPixels, pixels[inside - 1]);
       pixels = last;
     }
-    for_each_mask_run(kernel.run_begins(pixels), inside,
+    for_each_mask_run(kernels.run_begins(pixels), inside,
                       [&](uint32_t first, uint32_t length) { visit(pixels[first], length); });
   }
 }

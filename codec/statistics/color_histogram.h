@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "simd/color_buckets.h"
+#include "statistics/color_buckets.h"
 
 namespace tilepress {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "dcp/fvc.h"
-#include "simd/bit_count.h"
+#include "cpu/bit_count.h"
 
 namespace tilepress {
 namespace {
@@ -60,7 +60,7 @@ void FrameMeter::see_all(const uint32_t* pixels, uint32_t count) {
 
 void FrameMeter::see_pixels(const uint32_t* pixels, uint32_t count, uint64_t alike) {
   if (!counting_) return;
-  const uint64_t begins = (~alike & ~uint64_t{0} >> (kLanes - count)) | 1;
+  const uint64_t begins = (~alike & ~uint64_t{0} >> (kBlockPixels - count)) | 1;
   counting_ = counts_.add_runs(pixels, begins, count);  // past recent_: these hardly come back soon
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "dcp/lfc_collector.h"
-#include "simd/kernels.h"
+#include "pixels/few_colors.h"
 #include "statistics/color_distribution.h"
 #include "statistics/color_histogram.h"
 #include "tilepress/plane.h"

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "raw_bits.h"
+#include "pixels/raw_bits.h"
 #include "scheme_factory.h"
 #include "te/crc64.h"
 

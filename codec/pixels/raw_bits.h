@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "simd/kernels.h"
+#include "pixels/pixel_kernels.h"
 #include "tilepress/bit_io.h"
 #include "tilepress/block.h"
 
@@ -42,7 +42,7 @@ inline void write_raw_block(const uint32_t* pixels, uint32_t pixel_bits, BitWrit
 inline void read_raw_block(BitReader& in, uint32_t pixel_bits, Block& block) {
   const uint8_t* bytes = pixel_bits == 32 ? in.at_byte(kMaxRawBlockBits / 8) : nullptr;
   if (bytes != nullptr) {  // most often
-    kernels().read_raw(bytes, block.pixels.data());
+    pixel_kernels().read_raw(bytes, block.pixels.data());
     return in.skip(kMaxRawBlockBits);
   }
   for (uint32_t sub = 0; sub < kSubBlocks; ++sub) read_raw_sub_block(in, sub, pixel_bits, block);

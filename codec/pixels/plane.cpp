@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cstring>
 
-#include "simd/kernels.h"
+#include "pixels/pixel_kernels.h"
 
 namespace tilepress {
 namespace {
@@ -16,7 +16,7 @@ uint32_t round_up_to_block(uint32_t pixels) {
   return (pixels + kBlockSide - 1) / kBlockSide * kBlockSide;
 }
 
-/// Returns how many words of `target` were not the same before; see Kernels::replace_row.
+/// Returns how many words of `target` were not the same before; see PixelKernels::replace_row.
 uint32_t copy_row(const std::byte* source, const SurfaceView& view, uint32_t* target,
                   uint8_t* changed_blocks) {
   if (view.format == PixelFormat::kRgb565) {
@@ -32,8 +32,9 @@ uint32_t copy_row(const std::byte* source, const SurfaceView& view, uint32_t* ta
     return changed;
   }
   const bool eight_bit = view.format == PixelFormat::kRgba8 || view.format == PixelFormat::kRgbx8;
-  return kernels().replace_row(source, view.width, eight_bit && view.order == ByteOrder::kBgra,
-                               view.format == PixelFormat::kRgbx8 ? 0xFF000000u : 0u, target, changed_blocks);
+  return pixel_kernels().replace_row(source, view.width, eight_bit && view.order == ByteOrder::kBgra,
+                                     view.format == PixelFormat::kRgbx8 ? 0xFF000000u : 0u, target,
+                                     changed_blocks);
 }
 
 }  // namespace

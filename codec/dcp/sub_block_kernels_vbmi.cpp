@@ -1,6 +1,8 @@
-// Byte permute kernels, bits: how many a block takes in codes, and those that VDCP writes.
+// Sub-block kernels by AVX-512 VBMI.
+#include "dcp/sub_block_kernels.h"
+
 #if defined(__x86_64__)
-#include "simd/byte_permute.h"
+#include "cpu/vbmi.h"
 #include "tilepress/block.h"
 
 namespace tilepress {
@@ -58,10 +60,7 @@ TILEPRESS_VBMI_INLINE uint64_t four_of_each(uint32_t bits) {
   return _pdep_u64(bits, 0x1111111111111111) * 15;
 }
 
-}  // namespace
-
-TILEPRESS_VBMI uint32_t code_sum_by_permutes(const uint16_t* indices, const uint8_t* lengths,
-                                             uint32_t raw_bits) {
+TILEPRESS_VBMI uint32_t code_sum(const uint16_t* indices, const uint8_t* lengths, uint32_t raw_bits) {
   const __m512i index = index_bytes(indices);
   const __m512i bits =
       _mm512_mask_mov_epi8(_mm512_permutexvar_epi8(index, _mm512_loadu_si512(lengths)),
@@ -74,9 +73,9 @@ TILEPRESS_VBMI uint32_t code_sum_by_permutes(const uint16_t* indices, const uint
 
 // A sub-block's indices begin with a byte or amid one, and take at most 28 bits: they are in the four bytes
 // from there on.
-TILEPRESS_VBMI uint32_t read_indices_by_permutes(const uint8_t* bytes, const uint64_t marks[2],
-                                                 uint32_t mark_bits, uint32_t most_bits,
-                                                 const uint32_t* colors, uint32_t known, uint32_t* raster) {
+TILEPRESS_VBMI uint32_t read_indices(const uint8_t* bytes, const uint64_t marks[2], uint32_t mark_bits,
+                                     uint32_t most_bits, const uint32_t* colors, uint32_t known,
+                                     uint32_t* raster) {
   const uint64_t places = 0x0101010101010101u * ((1u << mark_bits) - 1);
   const __m128i width8 =
       _mm_set_epi64x(static_cast<long long>(__builtin_bswap64(_pdep_u64(marks[1], places))),
@@ -131,21 +130,20 @@ TILEPRESS_VBMI uint32_t read_indices_by_permutes(const uint8_t* bytes, const uin
 // A sub-block's bits are a multiple of four: it begins with a byte or amid one. All sixteen are laid out, in
 // 16 bytes each, as they lie in memory, those that begin amid a byte with the nibble before them on top; and
 // then written one after the other, each over the zeros behind the one before.
-TILEPRESS_VBMI WrittenBlock write_sub_blocks_by_permutes(const uint32_t* pixels, const uint16_t* indices,
-                                                         const uint8_t* widths, uint32_t mark_bits,
-                                                         uint8_t* out) {
+TILEPRESS_VBMI WrittenBlock write_sub_blocks(const uint32_t* pixels, const uint16_t* indices,
+                                             const uint8_t* widths, uint32_t mark_bits, uint8_t* out) {
   const auto marks_at = [&](uint32_t sub) TILEPRESS_VBMI {
     uint64_t eight;
     __builtin_memcpy(&eight, widths + sub, 8);
     return _pext_u64(__builtin_bswap64(eight), 0x0101010101010101u * ((1u << mark_bits) - 1));
   };
-  WrittenBlock written = {kLanes * 32, kLanes * 4, {marks_at(0), marks_at(8)}};
+  WrittenBlock written = {kBlockPixels * 32, kBlockPixels * 4, {marks_at(0), marks_at(8)}};
   const __m512i big_endian =
       _mm512_broadcast_i32x4(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
   const __m128i width8 = _mm_loadu_si128(reinterpret_cast<const __m128i*>(widths));
   const __mmask16 raw = _mm_movepi8_mask(width8);  // kRawWidth alone has the top bit
   if (raw == 0xFFFF) {
-    for (uint32_t i = 0; i < kLanes; i += 16)
+    for (uint32_t i = 0; i < kBlockPixels; i += 16)
       _mm512_storeu_si512(out + 4 * i, _mm512_shuffle_epi8(_mm512_loadu_si512(pixels + i), big_endian));
     return written;
   }
@@ -172,7 +170,7 @@ TILEPRESS_VBMI WrittenBlock write_sub_blocks_by_permutes(const uint32_t* pixels,
   // The last nibble of each sub-block, and of the one before each that has any.
   const __m512i fourth_of_two = _mm512_setr_epi32(3, 7, 11, 15, 19, 23, 27, 31, 0, 0, 0, 0, 0, 0, 0, 0);
   const auto fourth_of = [&](uint32_t half) TILEPRESS_VBMI {
-    const uint32_t* words = pixels + half * kLanes / 2;
+    const uint32_t* words = pixels + half * kBlockPixels / 2;
     return _mm512_castsi512_si256(
         _mm512_permutex2var_epi32(_mm512_loadu_si512(words), fourth_of_two, _mm512_loadu_si512(words + 16)));
   };
@@ -212,9 +210,14 @@ TILEPRESS_VBMI WrittenBlock write_sub_blocks_by_permutes(const uint32_t* pixels,
     from = _mm512_add_epi32(from, _mm512_set1_epi32(4));
   }
   // Raw pixels that begin amid a byte end in a byte that is not among their sixteen.
-  if ((raw & amid & 0x8000) != 0) out[at / 2] = static_cast<uint8_t>(pixels[kLanes - 1] << 4);
+  if ((raw & amid & 0x8000) != 0) out[at / 2] = static_cast<uint8_t>(pixels[kBlockPixels - 1] << 4);
   return written;
 }
+
+}  // namespace
+
+constexpr SubBlockKernels kVbmiSubBlockKernels = {
+    .write = write_sub_blocks, .read = read_indices, .code_sum = code_sum};
 
 }  // namespace tilepress
 #endif

@@ -1,23 +1,14 @@
-// Highway kernels of RAS: for kernels_highway.cpp, which compiles this once per instruction set with the
-// rest.
-#if defined(TILEPRESS_KERNELS_HIGHWAY_RAS_H) == defined(HWY_TARGET_TOGGLE)  // once per target
-#ifdef TILEPRESS_KERNELS_HIGHWAY_RAS_H
-#undef TILEPRESS_KERNELS_HIGHWAY_RAS_H
-#else
-#define TILEPRESS_KERNELS_HIGHWAY_RAS_H
-#endif
+// RAS kernels by Highway.
+#include "cpu/highway_targets.h"
+#include "ras/ras_kernels.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "ras/ras_kernels_highway.cpp"
+#include "hwy/foreach_target.h"  // before Highway's other headers
 
-#include <cstddef>
-#include <cstdint>
+#include "cpu/highway.h"
 
-#include "hwy/highway.h"
-#include "ras/ras_samples.h"
-
-#if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-HWY_BEFORE_NAMESPACE();
-namespace tilepress {
-namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+#if TILEPRESS_HAS_SIMD
+TILEPRESS_HIGHWAY_BEGIN
 
 using Samples = hn::CappedTag<int16_t, 32>;  // a row of eight pixels of four planes
 
@@ -91,7 +82,7 @@ HWY_INLINE void ForEachGroups(const int16_t* HWY_RESTRICT samples, const Visit& 
     }
 }
 
-uint32_t RasCodeBits(const int16_t* HWY_RESTRICT samples) {
+uint32_t CodeBits(const int16_t* HWY_RESTRICT samples) {
   const Samples d;
   using V = hn::Vec<Samples>;
   const hn::Repartition<int32_t, Samples> d32;
@@ -106,7 +97,7 @@ uint32_t RasCodeBits(const int16_t* HWY_RESTRICT samples) {
   return static_cast<uint32_t>(hn::GetLane(hn::SumOfLanes(d32, total)));
 }
 
-void ChooseRasCodes(const int16_t* HWY_RESTRICT samples, RasGroups& groups) {
+void ChooseCodes(const int16_t* HWY_RESTRICT samples, RasGroups& groups) {
   const Samples d;
   using V = hn::Vec<Samples>;
   ForEachGroups(samples, [&](uint32_t number, V u0, V u1, V u2, V u3, V residuals) HWY_ATTR {
@@ -122,8 +113,8 @@ void ChooseRasCodes(const int16_t* HWY_RESTRICT samples, RasGroups& groups) {
   });
 }
 
-void WriteRasGroups(const int16_t* HWY_RESTRICT samples, RasGroups& groups) {
-  ChooseRasCodes(samples, groups);
+void WriteGroups(const int16_t* HWY_RESTRICT samples, RasGroups& groups) {
+  ChooseCodes(samples, groups);
   using Codes = hn::CappedTag<uint64_t, 8>;
   const Codes d;
   const hn::Rebind<uint32_t, Codes> d32;
@@ -152,7 +143,7 @@ void WriteRasGroups(const int16_t* HWY_RESTRICT samples, RasGroups& groups) {
   }
 }
 
-void RestoreRasSamples(int16_t* samples) {
+void Restore(int16_t* samples) {
   const hn::CappedTag<int16_t, 4> d;  // a pixel
   constexpr int32_t kRow = 4 * kBlockSide;
   auto left = hn::LoadU(d, samples);
@@ -199,9 +190,20 @@ void WidenBytes(const uint32_t* HWY_RESTRICT top_left, uint32_t stride, int16_t*
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace tilepress
-HWY_AFTER_NAMESPACE();
+constexpr RasKernels kRasKernels = {.widen_bytes = WidenBytes,
+                                    .code_bits = CodeBits,
+                                    .groups = WriteGroups,
+                                    .restore = Restore,
+                                    .narrow_bytes = NarrowBytes};
+
+TILEPRESS_HIGHWAY_END
 #endif
 
+#if HWY_ONCE
+namespace tilepress {
+
+constexpr KernelSets<RasKernels> kRasKernelSets =
+    TILEPRESS_KERNEL_SETS(kPlainRasKernels, kRasKernels, TILEPRESS_AVX512_OR(kPlainRasKernels, kRasKernels));
+
+}  // namespace tilepress
 #endif

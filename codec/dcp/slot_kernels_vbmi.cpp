@@ -1,23 +1,18 @@
-// Byte permute kernels: the look-ups of a block where a register of 64 or 128 bytes is a table (AVX-512
-// VBMI). Highway 1.0 has no byte permutes across a whole vector, so these are intrinsics.
-#include "simd/kernel_sets.h"
+// Slot kernels by AVX-512 VBMI: a register of 64 or 128 bytes serves as a table.
+#include "dcp/slot_vbmi.h"
 
 #if defined(__x86_64__)
-#include "simd/byte_permute.h"
+#include "pixels/pixel_vbmi.h"
 
 namespace tilepress {
 namespace {
 
-TILEPRESS_VBMI_INLINE __m512i two_rows(const uint32_t* row, uint32_t stride) {
-  const __m256i upper = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(row));
-  return _mm512_inserti64x4(_mm512_castsi256_si512(upper),
-                            _mm256_loadu_si256(reinterpret_cast<const __m256i*>(row + stride)), 1);
-}
+using vbmi::BlockWords;
 
 /// Of four vectors of sixteen pixels, byte `c` of each pixel below and byte `d` above: 64 and 64.
-TILEPRESS_VBMI_INLINE void take_bytes(const __m512i (&words)[4], __m512i which, __m512i& low, __m512i& high) {
-  const __m512i first = _mm512_permutex2var_epi8(words[0], which, words[1]);
-  const __m512i second = _mm512_permutex2var_epi8(words[2], which, words[3]);
+TILEPRESS_VBMI_INLINE void take_bytes(const BlockWords& words, __m512i which, __m512i& low, __m512i& high) {
+  const __m512i first = _mm512_permutex2var_epi8(words.of[0], which, words.of[1]);
+  const __m512i second = _mm512_permutex2var_epi8(words.of[2], which, words.of[3]);
   low = _mm512_shuffle_i64x2(first, second, 0x44);
   high = _mm512_shuffle_i64x2(first, second, 0xEE);
 }
@@ -50,7 +45,7 @@ struct Keys {
   __m512i buckets[2];
 };
 
-TILEPRESS_VBMI_INLINE Keys keys_of(const __m512i (&words)[4]) {
+TILEPRESS_VBMI_INLINE Keys keys_of(const BlockWords& words) {
   static constexpr BytesOf k01(0, 1), k23(2, 3);
   static constexpr BucketMatrices kMatrices;
   Keys keys;
@@ -66,53 +61,6 @@ TILEPRESS_VBMI_INLINE Keys keys_of(const __m512i (&words)[4]) {
     keys.buckets[which] = _mm512_xor_si512(three, parts[3]);
   }
   return keys;
-}
-
-/// A block in traversal order.
-struct Words {
-  __m512i of[4];
-};
-
-TILEPRESS_VBMI_INLINE Words words_of(const uint32_t* pixels) {
-  Words words;
-  for (uint32_t i = 0; i < 4; ++i) words.of[i] = _mm512_loadu_si512(pixels + 16 * i);
-  return words;
-}
-
-/// Loads a block in traversal order; true if all pixels are equal.
-TILEPRESS_VBMI_INLINE bool load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels,
-                                __m512i (&words)[4]) {
-  // Pairs of two rows, interleaved: sub-blocks.
-  const __m512i order = _mm512_setr_epi64(0, 4, 1, 5, 2, 6, 3, 7);
-  const __m512i first = _mm512_set1_epi32(static_cast<int>(*top_left));
-  __m512i difference = _mm512_setzero_si512();
-  for (uint32_t i = 0; i < 4; ++i) {
-    words[i] = _mm512_permutexvar_epi64(order, two_rows(top_left + size_t{2 * i} * stride, stride));
-    _mm512_storeu_si512(pixels + 16 * i, words[i]);
-    difference = _mm512_ternarylogic_epi64(difference, words[i], first, 0xF6);  // difference | words ^ first
-  }
-  return _mm512_test_epi64_mask(difference, difference) == 0;
-}
-
-TILEPRESS_VBMI bool load_traversal(const uint32_t* top_left, uint32_t stride, uint32_t* pixels) {
-  __m512i words[4];
-  return load(top_left, stride, pixels, words);
-}
-
-// Two blocks at a time.
-TILEPRESS_VBMI uint32_t solid_blocks(const uint32_t* top_left, uint32_t stride, uint32_t color,
-                                     uint32_t most) {
-  const __m512i wanted = _mm512_set1_epi32(static_cast<int>(color));
-  for (uint32_t n = 0; n < most; n += 2, top_left += 16) {
-    const auto inside = static_cast<__mmask16>(n + 1 < most ? 0xFFFF : 0x00FF);
-    __m512i difference = _mm512_setzero_si512();
-    for (uint32_t y = 0; y < 8; ++y)
-      difference = _mm512_ternarylogic_epi64(
-          difference, _mm512_maskz_loadu_epi32(inside, top_left + size_t{y} * stride), wanted, 0xF6);
-    const __mmask16 differs = _mm512_mask_test_epi32_mask(inside, difference, difference);
-    if (differs != 0) return n + ((differs & 0xFF) == 0);
-  }
-  return most;
 }
 
 /// Zero bytes where bytes `begin` to `end` of the colour in `slots` are those of the pixel, besides what is
@@ -162,23 +110,11 @@ TILEPRESS_VBMI_INLINE Slots find(const Keys& keys, const SlotTable& table) {
   return {slots, all};
 }
 
-// Neighbours are compared in registers: to load what was just stored elsewhere than where it was stored
-// waits.
-TILEPRESS_VBMI_INLINE uint64_t run_begins(const __m512i (&words)[4]) {
-  uint64_t begins = 1;
-  for (uint32_t i = 0; i < 4; ++i) {
-    const __m512i before = _mm512_alignr_epi32(words[i], words[i == 0 ? 0 : i - 1], 15);
-    const __mmask16 differs = _mm512_cmpneq_epi32_mask(words[i], before);
-    begins |= uint64_t{i == 0 ? differs & 0xFFFEu : differs} << 16 * i;
-  }
-  return begins;
-}
-
-TILEPRESS_VBMI_INLINE FoundSlots find_slots(const __m512i (&words)[4], const Keys& keys,
-                                            const SlotTable& table, uint8_t* slots) {
+TILEPRESS_VBMI_INLINE FoundSlots find_slots(const BlockWords& words, const Keys& keys, const SlotTable& table,
+                                            uint8_t* slots) {
   const Slots found = find(keys, table);
   _mm512_storeu_si512(slots, found.slots);
-  if (found.known == 0) return {0, run_begins(words)};
+  if (found.known == 0) return {0, vbmi::run_begins(words)};
   static constexpr struct Before {
     alignas(64) uint8_t at[64];
     constexpr Before() : at() {
@@ -231,34 +167,33 @@ TILEPRESS_VBMI_INLINE void index_slots(const Keys& keys, const SlotTable& table,
 }
 
 TILEPRESS_VBMI FoundSlots find_slots(const uint32_t* pixels, const SlotTable& table, uint8_t* slots) {
-  const Words words = words_of(pixels);
-  return find_slots(words.of, keys_of(words.of), table, slots);
+  const BlockWords words = vbmi::words_of(pixels);
+  return find_slots(words, keys_of(words), table, slots);
 }
 
 TILEPRESS_VBMI void index_slots(const uint32_t* pixels, const SlotTable& table, uint16_t* indices,
                                 uint8_t* widths) {
-  index_slots(keys_of(words_of(pixels).of), table, indices, widths);
+  index_slots(keys_of(vbmi::words_of(pixels)), table, indices, widths);
 }
 
 TILEPRESS_VBMI bool load_slots(const uint32_t* top_left, uint32_t stride, uint32_t* pixels,
                                SlotLookups& lookups) {
-  __m512i words[4];
-  if (load(top_left, stride, pixels, words)) return true;
+  BlockWords words;
+  if (vbmi::load(top_left, stride, pixels, words)) return true;
   const Keys keys = keys_of(words);
   if (lookups.dictionary != nullptr) index_slots(keys, *lookups.dictionary, lookups.indices, lookups.widths);
   if (lookups.members != nullptr) lookups.found = find_slots(words, keys, *lookups.members, lookups.slots);
   return false;
 }
 
-TILEPRESS_VBMI uint64_t run_begins(const uint32_t* pixels) {
-  return run_begins(words_of(pixels).of);
-}
+}  // namespace
 
-TILEPRESS_VBMI uint64_t compact(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out) {
+TILEPRESS_VBMI uint64_t compact_by_vbmi(const uint32_t* pixels, uint64_t mask, uint32_t before,
+                                        uint32_t* out) {
   __m512i last = _mm512_set1_epi32(static_cast<int>(before));  // of those packed, in every lane
   uint64_t alike = 0;
   uint32_t count = 0;
-  for (uint32_t i = 0; i < kLanes; i += 16) {
+  for (uint32_t i = 0; i < kBlockPixels; i += 16) {
     const auto wanted = static_cast<__mmask16>(mask >> i);
     const auto more = static_cast<uint32_t>(__builtin_popcount(wanted));
     const __m512i packed = _mm512_maskz_compress_epi32(wanted, _mm512_loadu_si512(pixels + i));
@@ -272,39 +207,11 @@ TILEPRESS_VBMI uint64_t compact(const uint32_t* pixels, uint64_t mask, uint32_t 
   return alike;
 }
 
-}  // namespace
+constexpr SlotKernels kVbmiSlotKernels = {.byte_permutes = true,
+                                          .load = load_slots,
+                                          .find = find_slots,
+                                          .count = count_slots,
+                                          .index = index_slots};
 
-const Kernels* byte_permute_kernels(const Kernels& base) {
-  __builtin_cpu_init();
-  if (!__builtin_cpu_supports("avx512vbmi") || !__builtin_cpu_supports("avx512vbmi2") ||
-      !__builtin_cpu_supports("avx512vpopcntdq") || !__builtin_cpu_supports("bmi2") ||
-      !__builtin_cpu_supports("gfni"))
-    return nullptr;
-  static const Kernels kSet = [&] {
-    Kernels set = base;
-    set.name = "avx512vbmi";
-    set.byte_permutes = true;
-    set.load_traversal = load_traversal;
-    set.load_slots = load_slots;
-    set.solid_blocks = solid_blocks;
-    set.run_begins = run_begins;
-    set.compact = compact;
-    set.find_slots = find_slots;
-    set.count_slots = count_slots;
-    set.index_slots = index_slots;
-    set.write_sub_blocks = write_sub_blocks_by_permutes;
-    set.read_indices = read_indices_by_permutes;
-    set.code_sum = code_sum_by_permutes;
-    return set;
-  }();
-  return &kSet;
-}
-
-}  // namespace tilepress
-#else
-namespace tilepress {
-const Kernels* byte_permute_kernels(const Kernels&) {
-  return nullptr;
-}
 }  // namespace tilepress
 #endif

@@ -1,5 +1,5 @@
 // Slot table: insertion and removal.
-#include "simd/slot_table.h"
+#include "dcp/slot_table.h"
 
 #include <bit>
 #include <cstring>
