@@ -1,4 +1,4 @@
-// Mask runs: a mask of where runs begin, run by run.
+// Mask runs: visits runs whose beginnings are the set bits of a mask.
 #pragma once
 
 #include <bit>
@@ -6,8 +6,8 @@
 
 namespace tilepress {
 
-/// visit(first, length) for each run: bit i of `begins`, which is not 0, says that one begins at i, and the
-/// last ends before `end`.
+/// Calls visit(first, length) for each run. A run begins at each set bit of `begins`, which is not 0. The
+/// last run ends before `end`.
 template <typename Visit>
 void for_each_mask_run(uint64_t begins, uint32_t end, const Visit& visit) {
   while (true) {

@@ -1,4 +1,4 @@
-// Common Colors Dictionary: built from an FVC, looked up by colour, written and read back.
+// Common Colors Dictionary: built from an FVC, and looked up by colour.
 #include "dcp/ccd.h"
 
 #include <algorithm>
@@ -83,31 +83,6 @@ void CcdLookup::find_block(const uint32_t* pixels, const FewColors& few, uint16_
   uint32_t found[FewColors::kMost];
   for (uint32_t n = 0; n < few.count; ++n) found[n] = find(few.colors[n]);
   probe_kernels().find_few(pixels, few, found, indices, widths);
-}
-
-void Rccd::write(const Ccd& ccd, uint32_t slots, uint32_t pixel_bits, BitWriter& out) {
-  for (uint32_t i = 0; i < slots; ++i) {
-    const bool valid = i < ccd.colors.size();
-    out.put(valid ? 1 : 0, 1);
-    out.put(valid ? ccd.colors[i] : 0, pixel_bits);
-  }
-}
-
-bool Rccd::read(BitReader& in, uint64_t slot_count, uint32_t pixel_bits) {
-  if (!std::has_single_bit(slot_count) || slot_count > 1024) return false;
-  slots = static_cast<uint32_t>(slot_count);
-  colors.clear();
-  bool ended = false;
-  for (uint32_t i = 0; i < slots; ++i) {
-    const bool valid = in.get(1) != 0;
-    const auto color = static_cast<uint32_t>(in.get(pixel_bits));
-    if (valid && ended) return false;
-    if (valid)
-      colors.push_back(color);
-    else
-      ended = true;
-  }
-  return !in.overran();
 }
 
 }  // namespace tilepress

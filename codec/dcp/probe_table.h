@@ -1,4 +1,4 @@
-// Probe table: one multiplication, one shift and one comparison tell whether a colour is in a small set.
+// Probe table: finds a colour in a small set with one multiplication, one shift and one comparison.
 #pragma once
 
 #include <cstdint>
@@ -6,11 +6,11 @@
 
 namespace tilepress {
 
-/// A hash table without probing: a colour lies in its own bucket or not at all. Empty buckets hold a colour
-/// that belongs to another bucket, so that a lookup needs no validity test.
+/// A hash table without probing: a colour is in its own bucket or not in the table. An empty bucket holds a
+/// colour of another bucket, so that a lookup needs no validity test.
 struct ProbeTable {
   std::vector<uint32_t> colors;
-  std::vector<uint32_t> values;  ///< empty where only membership is asked for
+  std::vector<uint32_t> values;  ///< empty if only membership matters
   uint32_t multiplier = 0x9E3779B1u;
   uint32_t shift = 31;
 
@@ -26,14 +26,14 @@ struct ProbeTable {
     values.assign(with_values ? size : 0, 0);
     colors[0] = filler(0);
   }
-  /// What an empty bucket holds: colour 0 lies in bucket 0, so it marks all others.
+  /// Returns the colour of an empty bucket. Colour 0 belongs to bucket 0, so it marks all other buckets.
   uint32_t filler(uint32_t at) const {
     if (at != 0) return 0;
     uint32_t color = 1;
     while (bucket(color) == 0) ++color;
     return color;
   }
-  /// The n-th of a fixed series of odd multipliers.
+  /// Returns the n-th of a fixed series of odd multipliers.
   static uint32_t multiplier_of(uint32_t n) {
     uint32_t x = (n + 1) * 0x9E3779B9u;
     x = (x ^ (x >> 16)) * 0x85EBCA6Bu;

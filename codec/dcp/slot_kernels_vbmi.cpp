@@ -2,14 +2,58 @@
 #include "dcp/slot_vbmi.h"
 
 #if defined(__x86_64__)
-#include "pixels/pixel_vbmi.h"
+#include "cpu/vbmi.h"
+#include "dcp/slot_table.h"
 
 namespace tilepress {
 namespace {
 
-using vbmi::BlockWords;
+/// A block in traversal order: four vectors of sixteen pixels.
+struct BlockWords {
+  __m512i of[4];
+};
 
-/// Of four vectors of sixteen pixels, byte `c` of each pixel below and byte `d` above: 64 and 64.
+TILEPRESS_VBMI_INLINE BlockWords words_of(const uint32_t* pixels) {
+  BlockWords words;
+  for (uint32_t i = 0; i < 4; ++i) words.of[i] = _mm512_loadu_si512(pixels + 16 * i);
+  return words;
+}
+
+TILEPRESS_VBMI_INLINE __m512i two_rows(const uint32_t* row, uint32_t stride) {
+  const __m256i upper = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(row));
+  return _mm512_inserti64x4(_mm512_castsi256_si512(upper),
+                            _mm256_loadu_si256(reinterpret_cast<const __m256i*>(row + stride)), 1);
+}
+
+/// See PixelKernels::load_traversal; the block is in `words` too.
+TILEPRESS_VBMI_INLINE bool load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels,
+                                BlockWords& words) {
+  // Interleaves pairs of pixels of two rows: sub-blocks.
+  const __m512i order = _mm512_setr_epi64(0, 4, 1, 5, 2, 6, 3, 7);
+  const __m512i first = _mm512_set1_epi32(static_cast<int>(*top_left));
+  __m512i difference = _mm512_setzero_si512();
+  for (uint32_t i = 0; i < 4; ++i) {
+    words.of[i] = _mm512_permutexvar_epi64(order, two_rows(top_left + size_t{2 * i} * stride, stride));
+    _mm512_storeu_si512(pixels + 16 * i, words.of[i]);
+    difference =
+        _mm512_ternarylogic_epi64(difference, words.of[i], first, 0xF6);  // difference | words ^ first
+  }
+  return _mm512_test_epi64_mask(difference, difference) == 0;
+}
+
+/// See PixelKernels::run_begins. Compares neighbours in registers: a load that overlaps two recent stores
+/// would wait for them.
+TILEPRESS_VBMI_INLINE uint64_t run_begins(const BlockWords& words) {
+  uint64_t begins = 1;
+  for (uint32_t i = 0; i < 4; ++i) {
+    const __m512i before = _mm512_alignr_epi32(words.of[i], words.of[i == 0 ? 0 : i - 1], 15);
+    const __mmask16 differs = _mm512_cmpneq_epi32_mask(words.of[i], before);
+    begins |= uint64_t{i == 0 ? differs & 0xFFFEu : differs} << 16 * i;
+  }
+  return begins;
+}
+
+/// Takes two bytes of each of 64 pixels: 64 bytes `low` and 64 bytes `high`, as the positions `which` select.
 TILEPRESS_VBMI_INLINE void take_bytes(const BlockWords& words, __m512i which, __m512i& low, __m512i& high) {
   const __m512i first = _mm512_permutex2var_epi8(words.of[0], which, words.of[1]);
   const __m512i second = _mm512_permutex2var_epi8(words.of[2], which, words.of[3]);
@@ -39,7 +83,7 @@ struct BucketMatrices {
   }
 };
 
-/// A block's pixels taken apart into bytes, and the buckets where a slot table looks for each.
+/// The bytes of a block's pixels, and the two buckets of each pixel.
 struct Keys {
   __m512i bytes[4];  ///< byte c of each pixel
   __m512i buckets[2];
@@ -63,8 +107,8 @@ TILEPRESS_VBMI_INLINE Keys keys_of(const BlockWords& words) {
   return keys;
 }
 
-/// Zero bytes where bytes `begin` to `end` of the colour in `slots` are those of the pixel, besides what is
-/// zero in `sum`.
+/// Compares bytes `begin` to `end` of each pixel with the colour of its slot. A byte of the result is 0 if
+/// they are equal and the byte of `sum` is 0.
 TILEPRESS_VBMI_INLINE __m512i difference(const Keys& keys, const SlotTable& table, __m512i slots,
                                          uint32_t begin, uint32_t end, __m512i sum) {
   for (uint32_t c = begin; c < end; ++c) {
@@ -86,7 +130,7 @@ TILEPRESS_VBMI_INLINE Slots find(const Keys& keys, const SlotTable& table) {
     candidates[which] =
         _mm512_permutex2var_epi8(_mm512_load_si512(table.buckets[which]), keys.buckets[which],
                                  _mm512_load_si512(table.buckets[which] + SlotTable::kBuckets / 2));
-    // What an empty bucket holds has its top bit set.
+    // An empty bucket has its top bit set.
     const __m512i empty =
         _mm512_and_si512(candidates[which], _mm512_set1_epi8(static_cast<char>(SlotTable::kEmpty)));
     differs[which] = difference(keys, table, candidates[which], 0, 1, empty);
@@ -114,7 +158,7 @@ TILEPRESS_VBMI_INLINE FoundSlots find_slots(const BlockWords& words, const Keys&
                                             uint8_t* slots) {
   const Slots found = find(keys, table);
   _mm512_storeu_si512(slots, found.slots);
-  if (found.known == 0) return {0, vbmi::run_begins(words)};
+  if (found.known == 0) return {0, run_begins(words)};
   static constexpr struct Before {
     alignas(64) uint8_t at[64];
     constexpr Before() : at() {
@@ -167,19 +211,19 @@ TILEPRESS_VBMI_INLINE void index_slots(const Keys& keys, const SlotTable& table,
 }
 
 TILEPRESS_VBMI FoundSlots find_slots(const uint32_t* pixels, const SlotTable& table, uint8_t* slots) {
-  const BlockWords words = vbmi::words_of(pixels);
+  const BlockWords words = words_of(pixels);
   return find_slots(words, keys_of(words), table, slots);
 }
 
 TILEPRESS_VBMI void index_slots(const uint32_t* pixels, const SlotTable& table, uint16_t* indices,
                                 uint8_t* widths) {
-  index_slots(keys_of(vbmi::words_of(pixels)), table, indices, widths);
+  index_slots(keys_of(words_of(pixels)), table, indices, widths);
 }
 
 TILEPRESS_VBMI bool load_slots(const uint32_t* top_left, uint32_t stride, uint32_t* pixels,
                                SlotLookups& lookups) {
   BlockWords words;
-  if (vbmi::load(top_left, stride, pixels, words)) return true;
+  if (load(top_left, stride, pixels, words)) return true;
   const Keys keys = keys_of(words);
   if (lookups.dictionary != nullptr) index_slots(keys, *lookups.dictionary, lookups.indices, lookups.widths);
   if (lookups.members != nullptr) lookups.found = find_slots(words, keys, *lookups.members, lookups.slots);

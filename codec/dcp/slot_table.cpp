@@ -12,8 +12,8 @@ void SlotTable::clear() {
   stashed = 0;
 }
 
-/// Puts the slot into one of its buckets, and who was there into its other one, and so on; if this does not
-/// end, who is left is stashed.
+/// Inserts the slot into one of its two buckets. A displaced slot moves to its other bucket, and so on. If
+/// the chain does not end, the last slot goes to the stash.
 void SlotTable::place(uint32_t slot) {
   constexpr uint32_t kMoves = 32;
   auto moving = static_cast<uint8_t>(slot);

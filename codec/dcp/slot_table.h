@@ -1,4 +1,4 @@
-// Slot table: up to 64 colours by number, laid out so that byte permutes find 64 pixels at once.
+// Slot table: up to 64 numbered colours, laid out for byte permutes that find 64 pixels at once.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@ namespace tilepress {
 
 /// The two buckets of a colour, below 128.
 struct SlotBuckets {
-  /// Bit i of a bucket is the parity of the colour's bits under mask i: linear, so that byte c of 64 pixels
-  /// gives its part of 64 buckets by one product of bit matrices. Of random masks the best out of many: no
-  /// two grays, or shades of the same channels, have both buckets in common.
+  /// Bit i of a bucket is the parity of the colour's bits under mask i. Parity is linear: one product of bit
+  /// matrices turns byte c of 64 pixels into its part of 64 buckets. These masks are the best of many random
+  /// ones: two shades of the same channels never share both buckets.
   static constexpr uint32_t kMasks[2][7] = {
       {0xEB6D8D01, 0xE3A0DF1B, 0xAD1FCCFA, 0xE1D088C6, 0xFF07A961, 0xD0DF7527, 0xDB89973A},
       {0x09ADE6F2, 0xB3BCEAE9, 0xAA4CAED1, 0xAB6CB08B, 0xD6E5CE85, 0xD83D9B39, 0xEF979572}};
@@ -24,7 +24,7 @@ struct SlotBuckets {
   }
 
  private:
-  /// What each value of byte c adds to a bucket.
+  /// The part of a bucket for each value of byte c.
   struct Parts {
     uint8_t of[2][4][256];
     constexpr Parts() : of() {
@@ -42,8 +42,8 @@ struct SlotBuckets {
 
 inline constexpr SlotBuckets::Parts SlotBuckets::kParts;
 
-/// A cuckoo hash table: a colour lies in one of two buckets, which hold its slot number. A colour that finds
-/// no bucket is stashed, and compared with every pixel.
+/// A cuckoo hash table: the slot number of a colour is in one of the colour's two buckets. A colour that
+/// finds no bucket goes to the stash, and look-ups compare every pixel with it.
 class SlotTable {
  public:
   static constexpr uint32_t kSlots = 64, kBuckets = 128;
@@ -52,11 +52,11 @@ class SlotTable {
 
   SlotTable() { clear(); }
   void clear();
-  /// The colour is in no slot yet, and the slot is free.
+  /// Precondition: no slot holds the colour, and the slot is free.
   void insert(uint32_t slot, uint32_t color);
   /// Precondition: the slot holds a colour.
   void remove(uint32_t slot);
-  /// The colour's slot, or kAbsent.
+  /// Returns the slot of the colour, or kAbsent.
   uint32_t find(uint32_t color) const;
 
   // The layout, for the kernels.

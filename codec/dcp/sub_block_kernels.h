@@ -1,4 +1,4 @@
-// Sub-block kernels: fast versions of what sub_blocks.h and huffman_blocks.h define for a whole block.
+// Sub-block kernels: fast versions of what sub_blocks.h defines for a whole block.
 #pragma once
 
 #include <cstdint>
@@ -28,11 +28,6 @@ struct SubBlockKernels {
   /// kNotAllIndices for any other payload, and leaves `raster` undefined then.
   uint32_t (*read)(const uint8_t* bytes, const uint64_t marks[2], uint32_t mark_bits, uint32_t most_bits,
                    const uint32_t* colors, uint32_t known, uint32_t* raster);
-
-  /// Returns the bits of a block in codes of `lengths`, up to 127 each, by index. A sub-block takes at most
-  /// `raw_bits`, and exactly `raw_bits` if one of its indices is kNotInCcd. raw_bits is 64 or 128; indices
-  /// are below 64.
-  uint32_t (*code_sum)(const uint16_t* indices, const uint8_t* lengths, uint32_t raw_bits);
 };
 
 extern const KernelSets<SubBlockKernels> kSubBlockKernelSets;

@@ -10,25 +10,18 @@ namespace {
 
 constexpr uint32_t kLineBytes = 64;
 
-/// 64 indices of up to 8 bits, or 0xFF.
-TILEPRESS_VBMI_INLINE __m512i index_bytes(const uint16_t* indices) {
-  const __m256i low = _mm512_cvtepi16_epi8(_mm512_loadu_si512(indices));
-  const __m256i high = _mm512_cvtepi16_epi8(_mm512_loadu_si512(indices + 32));
-  return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
-}
-
-/// The four indices of each sub-block, the first on top, of `widths` bits each, at most 7.
+/// Joins the four indices of each sub-block, the first on top, `widths` ≤ 7 bits each.
 TILEPRESS_VBMI_INLINE __m512i packed_indices(const uint16_t* indices, __m512i widths) {
   const __m512i bytes = index_bytes(indices);
   const __m512i one = _mm512_set1_epi32(1);
-  // Pairs of indices, the first · 2^width + the second, and then pairs of pairs.
+  // Joins pairs of indices, the first · 2^width + the second, and then pairs of pairs.
   const __m512i by_width = _mm512_sllv_epi32(_mm512_set1_epi32(0x00010001), widths);
   const __m512i pairs = _mm512_maddubs_epi16(_mm512_or_si512(by_width, _mm512_set1_epi32(0x01000100)), bytes);
   const __m512i by_two_widths = _mm512_sllv_epi32(one, _mm512_add_epi32(widths, widths));
   return _mm512_madd_epi16(pairs, _mm512_or_si512(by_two_widths, _mm512_set1_epi32(0x00010000)));
 }
 
-/// The nibbles of eight words, a byte each, those of a word from the top.
+/// Splits eight words into nibbles, one per byte, from the top of each word.
 TILEPRESS_VBMI_INLINE __m512i nibbles_of(__m256i words) {
   const __m512i places = _mm512_set1_epi64(0x0004080C1014181C);
   return _mm512_and_si512(_mm512_multishift_epi64_epi8(places, _mm512_cvtepu32_epi64(words)),
@@ -55,20 +48,9 @@ TILEPRESS_VBMI_INLINE uint32_t write_packed(__m512i packed, __m512i widths, uint
   return 4 * (count + static_cast<uint32_t>(__builtin_popcountll(then_wanted)));
 }
 
-/// Four mask bits for each of sixteen.
+/// Repeats each of sixteen bits four times.
 TILEPRESS_VBMI_INLINE uint64_t four_of_each(uint32_t bits) {
   return _pdep_u64(bits, 0x1111111111111111) * 15;
-}
-
-TILEPRESS_VBMI uint32_t code_sum(const uint16_t* indices, const uint8_t* lengths, uint32_t raw_bits) {
-  const __m512i index = index_bytes(indices);
-  const __m512i bits =
-      _mm512_mask_mov_epi8(_mm512_permutexvar_epi8(index, _mm512_loadu_si512(lengths)),
-                           _mm512_movepi8_mask(index), _mm512_set1_epi8(static_cast<char>(raw_bits)));
-  const __m512i pairs = _mm512_maddubs_epi16(bits, _mm512_set1_epi8(1));
-  const __m512i sums = _mm512_madd_epi16(pairs, _mm512_set1_epi16(1));
-  return static_cast<uint32_t>(
-      _mm512_reduce_add_epi32(_mm512_min_epu32(sums, _mm512_set1_epi32(static_cast<int>(raw_bits)))));
 }
 
 // A sub-block's indices begin with a byte or amid one, and take at most 28 bits: they are in the four bytes
@@ -216,8 +198,7 @@ TILEPRESS_VBMI WrittenBlock write_sub_blocks(const uint32_t* pixels, const uint1
 
 }  // namespace
 
-constexpr SubBlockKernels kVbmiSubBlockKernels = {
-    .write = write_sub_blocks, .read = read_indices, .code_sum = code_sum};
+constexpr SubBlockKernels kVbmiSubBlockKernels = {.write = write_sub_blocks, .read = read_indices};
 
 }  // namespace tilepress
 #endif

@@ -26,10 +26,10 @@ class VdcpEncoder final : public DcpFamilyEncoder {
     return active() ? uint64_t{ccd_->entries} * (pixel_bits_ + 1) : 0;
   }
   void write_tables(BitWriter& out) const override {
-    if (active()) Rccd::write(*ccd_, ccd_->entries, pixel_bits_, out);
+    if (active()) write_colors(ccd_->colors, ccd_->entries, pixel_bits_, out);
   }
-  uint32_t measure(const BlockContext& block) const override {
-    return active() ? payload_bits(block.ccd_widths, pixel_bits_) : raw_block_bits();
+  uint32_t measure(const BlockContext&) const override {
+    return active() ? payload_bits(view_->widths, pixel_bits_) : raw_block_bits();
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     if (off_) return write_raw_block(block.pixels, pixel_bits_, payload);
@@ -73,13 +73,16 @@ class VdcpDecoder final : public DcpFamilyDecoder {
 
 }  // namespace
 
-const SchemeInfo kVdcpInfo = {"vdcp",
-                              "VDCP",
-                              "palette indices of a width chosen per sub-block, recorded in the CSB",
-                              "Gubran et al., Variable DCP",
-                              true,
-                              false,
-                              make_encoder<VdcpEncoder>,
-                              make_decoder<VdcpDecoder>};
+const SchemeInfo kVdcpInfo = {
+    .name = "vdcp",
+    .label = "VDCP",
+    .family = "dcp",
+    .summary = "palette indices of a width chosen per sub-block, recorded in the CSB",
+    .source = "Gubran et al., Variable DCP",
+    .make_encoder = make_encoder<VdcpEncoder>,
+    .make_decoder = make_decoder<VdcpDecoder>,
+    .keys = kDcpKeys,
+    .check = check_dcp_keys,
+    .has_dcp_structures = true};
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Memory lines: a block's pixels as the 32-bit words that cache-line codecs see.
+// Memory lines: a block's pixels as 32-bit words for cache-line codecs.
 #pragma once
 
 #include <array>
@@ -8,14 +8,27 @@
 
 namespace tilepress {
 
-/// The block's bytes as little-endian words, pixels row by row, or in traversal order (2×2 quads). 64 words
-/// of 32-bit pixels, or 32 words of two 16-bit pixels each, the first one in the low half.
+/// Order in which a block's pixels fill memory lines, as the choices of the key.
+enum class LineOrder : uint8_t { kRaster, kQuad };
+
+/// The key of cache-line codecs.
+inline constexpr SchemeKey kOrderKey[] = {{.name = "order",
+                                           .kind = KeyKind::kChoice,
+                                           .values = "raster, quad",
+                                           .standard = "raster",
+                                           .summary = "order of a block's pixels in memory lines"}};
+inline LineOrder line_order(const SchemeSpec& spec) {
+  return static_cast<LineOrder>(spec.number("order"));
+}
+
+/// The block's bytes as little-endian words: 64 words of 32-bit pixels, or 32 words of two 16-bit pixels, the
+/// first in the low half.
 struct LineWords {
   uint32_t count = 0;
   std::array<uint32_t, kBlockPixels> words;
 };
 
-/// Raster position of the i-th pixel in memory.
+/// Returns the raster position of the i-th pixel in memory.
 inline uint32_t line_pixel(LineOrder order, uint32_t i) {
   return order == LineOrder::kQuad ? kTraversal[i] : i;
 }

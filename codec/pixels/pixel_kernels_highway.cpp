@@ -6,7 +6,6 @@
 #include "hwy/foreach_target.h"  // before Highway's other headers
 
 #include "cpu/highway.h"
-#include "pixels/pixel_vbmi.h"
 #include "tilepress/block.h"
 
 #if TILEPRESS_HAS_SIMD
@@ -131,24 +130,9 @@ TILEPRESS_HIGHWAY_END
 
 #if HWY_ONCE
 namespace tilepress {
-namespace {
 
-#if defined(__x86_64__)
-constexpr PixelKernels kVbmiPixelKernels = [] {
-  PixelKernels kernels = TILEPRESS_AVX512_OR(kPlainPixelKernels, kPixelKernels);
-  kernels.load_traversal = load_traversal_by_vbmi;
-  kernels.solid_blocks = solid_blocks_by_vbmi;
-  kernels.run_begins = run_begins_by_vbmi;
-  return kernels;
-}();
-#else
-constexpr const PixelKernels& kVbmiPixelKernels = kPlainPixelKernels;
-#endif
-
-}  // namespace
-
-constexpr KernelSets<PixelKernels> kPixelKernelSets =
-    TILEPRESS_KERNEL_SETS(kPlainPixelKernels, kPixelKernels, kVbmiPixelKernels);
+constexpr KernelSets<PixelKernels> kPixelKernelSets = TILEPRESS_KERNEL_SETS(
+    kPlainPixelKernels, kPixelKernels, TILEPRESS_AVX512_OR(kPlainPixelKernels, kPixelKernels));
 
 }  // namespace tilepress
 #endif

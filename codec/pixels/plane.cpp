@@ -10,13 +10,13 @@
 namespace tilepress {
 namespace {
 
-constexpr ptrdiff_t kMaxStride = 1 << 20;  ///< so that a place in a row of blocks is a 32-bit number
+constexpr ptrdiff_t kMaxStride = 1 << 20;  ///< keeps offsets in a row of blocks within 32 bits
 
 uint32_t round_up_to_block(uint32_t pixels) {
   return (pixels + kBlockSide - 1) / kBlockSide * kBlockSide;
 }
 
-/// Returns how many words of `target` were not the same before; see PixelKernels::replace_row.
+/// Returns how many words of `target` changed; see PixelKernels::replace_row.
 uint32_t copy_row(const std::byte* source, const SurfaceView& view, uint32_t* target,
                   uint8_t* changed_blocks) {
   if (view.format == PixelFormat::kRgb565) {

@@ -1,4 +1,4 @@
-// Raw pixels in a bit stream: what every scheme writes where it does not compress.
+// Raw pixels in a bit stream, for blocks and sub-blocks that a scheme does not compress.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace tilepress {
 
-/// Raster position of pixel `i` (0..3) of sub-block `sub` (0..15).
+/// Returns the raster position of pixel `i` (0..3) of sub-block `sub` (0..15).
 constexpr uint32_t sub_block_pixel(uint32_t sub, uint32_t i) {
   return kTraversal[sub * kSubBlockPixels + i];
 }
 
-/// `count` pixels, an even number.
+/// Appends `count` pixels, an even number.
 inline void write_raw_pixels(const uint32_t* pixels, uint32_t count, uint32_t pixel_bits, BitWriter& out) {
   for (uint32_t i = 0; i < count; i += 2) {
     const uint64_t pair = uint64_t{pixels[i]} << pixel_bits | pixels[i + 1];
@@ -34,14 +34,14 @@ inline void read_raw_sub_block(BitReader& in, uint32_t sub, uint32_t pixel_bits,
   }
 }
 
-/// A raw block is its sixteen raw sub-blocks in order: its pixels in traversal order.
+/// Appends a raw block: its pixels in traversal order.
 inline void write_raw_block(const uint32_t* pixels, uint32_t pixel_bits, BitWriter& out) {
   write_raw_pixels(pixels, kBlockPixels, pixel_bits, out);
 }
 
 inline void read_raw_block(BitReader& in, uint32_t pixel_bits, Block& block) {
   const uint8_t* bytes = pixel_bits == 32 ? in.at_byte(kMaxRawBlockBits / 8) : nullptr;
-  if (bytes != nullptr) {  // most often
+  if (bytes != nullptr) {  // the common case
     pixel_kernels().read_raw(bytes, block.pixels.data());
     return in.skip(kMaxRawBlockBits);
   }

@@ -26,13 +26,13 @@ template <int kK, class V>
 HWY_INLINE V GroupBits(const Samples& d, V u0, V u1, V u2, V u3, V residuals) {
   const auto high = hn::Add(hn::Add(hn::ShiftRight<kK>(u0), hn::ShiftRight<kK>(u1)),
                             hn::Add(hn::ShiftRight<kK>(u2), hn::ShiftRight<kK>(u3)));
-  // residuals · (1 + k), by additions: no 16-bit multiplication needed
+  // residuals · (1 + k) by additions
   auto fixed = hn::Set(d, 3);
   for (int i = 0; i <= kK; ++i) fixed = hn::Add(fixed, residuals);
   return hn::Add(high, fixed);
 }
 
-/// Makes kK the k of the groups that take fewer bits with it.
+/// Sets k to kK for the groups that take fewer bits with kK.
 template <int kK, class V>
 HWY_INLINE void TryK(const Samples& d, V u0, V u1, V u2, V u3, V residuals, V& bits, V& k) {
   const auto candidate = GroupBits<kK>(d, u0, u1, u2, u3, residuals);
@@ -40,7 +40,7 @@ HWY_INLINE void TryK(const Samples& d, V u0, V u1, V u2, V u3, V residuals, V& b
   bits = hn::Min(candidate, bits);
 }
 
-/// The bits of groups, with their headers, and their k.
+/// Returns the bits of groups, headers included, and their k.
 template <class V>
 HWY_INLINE void ChooseCode(const Samples& d, V u0, V u1, V u2, V u3, V residuals, V& bits, V& k) {
   bits = GroupBits<0>(d, u0, u1, u2, u3, residuals);
@@ -56,8 +56,8 @@ HWY_INLINE void ChooseCode(const Samples& d, V u0, V u1, V u2, V u3, V residuals
   k = hn::IfThenElse(zero, hn::Set(d, kRasZeroGroup), k);
 }
 
-/// visit(number, u0, u1, u2, u3, residuals) for vectors of groups from ras_group_index `number` on: their
-/// folded residuals, and how many there are.
+/// Calls visit(number, u0, u1, u2, u3, residuals) for vectors of groups from ras_group_index `number` on,
+/// with their folded residuals and the number of residuals per group.
 template <class Visit>
 HWY_INLINE void ForEachGroups(const int16_t* HWY_RESTRICT samples, const Visit& visit) {
   const Samples d;

@@ -1,4 +1,4 @@
-// Colour histogram: open addressing; and the profile of its counts.
+// Colour histogram: open addressing. Count profile: entropy and coverage.
 #include "statistics/color_histogram.h"
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 
 #include "block_harness.h"
 #include "ras/ras_classes.h"
+#include "ras/ras_stream.h"
 #include "ras/ras_samples.h"
 #include "tilepress/simd.h"
 

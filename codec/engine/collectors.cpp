@@ -1,20 +1,28 @@
-// Collectors: what happens once a frame, or for a run of blocks of one colour.
-#include "collectors.h"
+// Collectors: the beginning and the end of a frame, and runs of one colour.
+#include "engine/collectors.h"
 
 namespace tilepress {
 
-Collector& Collectors::of(const FvcConfig& config, const FormatTraits& format) {
+void Collectors::open(const FormatTraits& format, bool with_metrics) {
+  format_ = format;
+  with_metrics_ = with_metrics;
+  if (with_metrics) collector_of(FvcConfig{});
+}
+
+Collector& Collectors::collector_of(const FvcConfig& config) {
   for (const auto& collector : collectors_)
     if (collector->fvc().config() == config) return *collector;
-  return *collectors_.emplace_back(std::make_unique<Collector>(config, format));
+  return *collectors_.emplace_back(std::make_unique<Collector>(config, format_));
 }
 
-void Collectors::open(bool with_metrics) {
-  with_metrics_ = with_metrics;
+const CcdView& Collectors::view_of(const FvcConfig& config) {
+  Collector& collector = collector_of(config);
+  collector.wanted = true;
+  return collector.view();
+}
+
+void Collectors::begin(uint64_t ordinal, size_t pixels) {
   loads_slots_ = slot_kernels().byte_permutes && !collectors_.empty();
-}
-
-void Collectors::begin_frame(uint64_t ordinal, size_t pixels) {
   for (const auto& collector : collectors_) collector->begin_frame(ordinal);
   meter_looks_ = false;
   if (with_metrics_) {

@@ -9,11 +9,11 @@
 
 namespace tilepress {
 
-/// Buffers for round trips; re-used from block to block.
+/// Holds the buffers of round trips from block to block.
 class BlockCheck {
  public:
-  /// Hands the frame's tables from encoder to decoder as bits. False: the decoder refused them, or their
-  /// number differs from what the encoder reports.
+  /// Passes the frame's tables from encoder to decoder as bits. Returns false if the decoder refuses them or
+  /// the encoder reports another number of bits.
   bool begin_frame(const BlockEncoder& encoder, BlockDecoder& decoder) {
     tables_.assign((encoder.palette_bits() + 7) / 8, 0);
     BitWriter writer(tables_);
@@ -24,7 +24,8 @@ class BlockCheck {
     return decoder.begin_frame(reader, writer.bit_count(), encoder.csb_bits());
   }
 
-  /// True if the block comes back, and exactly `payload_bits` and csb_bits() bits were written and read.
+  /// Returns true if the decoder restores the block, and both sides use exactly `payload_bits` and csb_bits()
+  /// bits.
   bool round_trip(const BlockEncoder& encoder, BlockDecoder& decoder, const BlockContext& block,
                   uint32_t payload_bits) {
     BitWriter payload(payload_), csb(csb_);
@@ -36,7 +37,7 @@ class BlockCheck {
       return false;
     BitReader payload_in(payload_, payload_bits), csb_in(csb_, csb.bit_count());
     Block decoded;
-    decoded.pixels.fill(0xDEADBEEF);  // nothing of a block decoded before may look right
+    decoded.pixels.fill(0xDEADBEEF);  // an earlier block must not pass as this one
     return decoder.decode_at(block.bx, block.by, csb_in, payload_in, decoded) && decoded == block.block &&
            payload_in.position() == payload_bits;
   }

@@ -8,13 +8,13 @@
 
 namespace tilepress {
 
-struct ColorCount {
+struct FrequentColor {
   uint32_t color;
   uint32_t count;
 };
 
-/// The `limit` most frequent colours inside the surface, the most frequent first; equally frequent ones by
-/// ascending pixel word.
-std::vector<ColorCount> most_frequent_colors(const PixelPlane& frame, uint32_t limit);
+/// Returns the `limit` most frequent colours inside the surface, the most frequent first. Ties are in
+/// ascending order of the pixel word.
+std::vector<FrequentColor> most_frequent_colors(const PixelPlane& frame, uint32_t limit);
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Row prefetch: a frame's rows are brought near in the order in which they lie, before blocks read them.
+// Row prefetch: prefetches rows of a frame in memory order before blocks read them.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,15 @@
 
 namespace tilepress {
 
-/// Blocks read a few bytes of many rows, which no processor guesses, and a copy of rows has nothing to do
-/// while it waits for another core's cache. So the rows of the next tiles are asked for, line after line,
-/// while those before are worked on.
+/// A block reads a few bytes of eight rows, which no hardware prefetcher predicts. So the engine prefetches
+/// the rows of the next tiles, line after line, while it works on the tiles before.
 class RowPrefetch {
  public:
   static constexpr uint32_t kLineBytes = 64;  ///< of memory
-  /// Rows of more bytes than this would push each other out of the cache.
+  /// Rows of more bytes would evict each other from the cache.
   static constexpr uint64_t kMostBytes = 512 << 10;
 
-  /// The next are rows `begin` to `end` of `frame`, which must stay as it is until the last step.
+  /// Aims at rows `begin` to `end` of `frame`, which must stay as it is until the last step.
   void aim(const SurfaceView& frame, uint32_t begin, uint32_t end) {
     row_ = frame.row(begin);
     pitch_ = frame.pitch_bytes;
@@ -26,7 +25,7 @@ class RowPrefetch {
     at_ = 0;
     rows_ = end - begin;
   }
-  /// Asks for the next `lines` lines, if there are so many left.
+  /// Prefetches the next `lines` lines, or the lines left.
   void step(uint32_t lines) {
     while (lines > 0 && rows_ > 0) {
       const std::byte* const row = row_;
@@ -39,7 +38,7 @@ class RowPrefetch {
       --rows_;
     }
   }
-  /// Asks for blocks `bx` to `bx_end` of row `by`, which step() asked for, once more: they are next.
+  /// Prefetches blocks `bx` to `bx_end` of row `by` into the nearest cache; they are the next to visit.
   static void bring_nearer(const PixelPlane& plane, uint32_t bx, uint32_t bx_end, uint32_t by) {
     for (uint32_t y = by * kBlockSide; y < (by + 1) * kBlockSide; ++y)
       for (uint32_t x = bx * kBlockSide; x < bx_end * kBlockSide; x += kLineBytes / sizeof(uint32_t))

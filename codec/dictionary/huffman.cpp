@@ -1,5 +1,5 @@
 // Huffman codes over a dictionary.
-#include "huffman.h"
+#include "dictionary/huffman.h"
 
 #include <algorithm>
 #include <array>

@@ -1,18 +1,20 @@
 // Colour table: building, writing and reading.
-#include "color_table.h"
+#include "dictionary/color_table.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 
 namespace tilepress {
 
-uint32_t ColorTable::index_bits() const {
-  return static_cast<uint32_t>(std::bit_width(slots_) - 1);
+void write_colors(std::span<const uint32_t> colors, uint32_t slots, uint32_t pixel_bits, BitWriter& out) {
+  for (uint32_t i = 0; i < slots; ++i) {
+    out.put(i < colors.size(), 1);
+    out.put(i < colors.size() ? colors[i] : 0, pixel_bits);
+  }
 }
 
 void ColorTable::assign(uint32_t slots, std::span<const uint32_t> colors) {
-  assert(std::has_single_bit(slots) && slots <= 1024 && colors.size() <= slots);
+  assert(std::has_single_bit(slots) && slots <= kMostColors && colors.size() <= slots);
   slots_ = slots;
   colors_.assign(colors.begin(), colors.end());
   const uint32_t size = std::max(4u, slots * 4);
@@ -24,19 +26,12 @@ void ColorTable::assign(uint32_t slots, std::span<const uint32_t> colors) {
     uint32_t at = colors_[i] * 0x9E3779B1u >> shift_;
     while (indices_[at] != kNoColor) at = (at + 1) & mask_;
     keys_[at] = colors_[i];
-    indices_[at] = i;
-  }
-}
-
-void ColorTable::write(uint32_t pixel_bits, BitWriter& out) const {
-  for (uint32_t i = 0; i < slots_; ++i) {
-    out.put(i < colors_.size(), 1);
-    out.put(i < colors_.size() ? colors_[i] : 0, pixel_bits);
+    indices_[at] = static_cast<uint16_t>(i);
   }
 }
 
 bool ColorTable::read(BitReader& in, uint64_t slots, uint32_t pixel_bits) {
-  if (!std::has_single_bit(slots) || slots > 1024) return false;
+  if (!std::has_single_bit(slots) || slots > kMostColors) return false;
   slots_ = static_cast<uint32_t>(slots);
   colors_.clear();
   bool ended = false;
