@@ -26,6 +26,13 @@ class DcpFamilyEncoder : public BlockEncoder {
     ccd_ = view_->ccd;
     off_ = ccd_ != nullptr && ccd_->coverage < coverage_threshold_;
   }
+  /// The whole CCD as an rCCD, unless a scheme overrides both.
+  uint64_t palette_bits() const override {
+    return active() ? uint64_t{ccd_->entries} * (pixel_bits_ + 1) : 0;
+  }
+  void write_tables(BitWriter& out) const override {
+    if (active()) write_colors(ccd_->colors, ccd_->entries, pixel_bits_, out);
+  }
 
  protected:
   /// True if the frame has a CCD and the scheme is on.

@@ -53,8 +53,7 @@ TILEPRESS_VBMI_INLINE uint64_t four_of_each(uint32_t bits) {
   return _pdep_u64(bits, 0x1111111111111111) * 15;
 }
 
-// A sub-block's indices begin with a byte or amid one, and take at most 28 bits: they are in the four bytes
-// from there on.
+// The indices of a sub-block begin at a byte or amid one, and take at most 28 bits: four bytes hold them.
 TILEPRESS_VBMI uint32_t read_indices(const uint8_t* bytes, const uint64_t marks[2], uint32_t mark_bits,
                                      uint32_t most_bits, const uint32_t* colors, uint32_t known,
                                      uint32_t* raster) {
@@ -63,7 +62,7 @@ TILEPRESS_VBMI uint32_t read_indices(const uint8_t* bytes, const uint64_t marks[
       _mm_set_epi64x(static_cast<long long>(__builtin_bswap64(_pdep_u64(marks[1], places))),
                      static_cast<long long>(__builtin_bswap64(_pdep_u64(marks[0], places))));
   if (_mm_cmpgt_epu8_mask(width8, _mm_set1_epi8(static_cast<char>(most_bits))) != 0) return kNotAllIndices;
-  // Where each begins and ends, in nibbles: as many as the width.
+  // The beginning and the end of each sub-block in nibbles: a sub-block has as many nibbles as its width.
   __m128i end8 = _mm_add_epi8(width8, _mm_bslli_si128(width8, 1));
   end8 = _mm_add_epi8(end8, _mm_bslli_si128(end8, 2));
   end8 = _mm_add_epi8(end8, _mm_bslli_si128(end8, 4));
@@ -93,7 +92,7 @@ TILEPRESS_VBMI uint32_t read_indices(const uint8_t* bytes, const uint64_t marks[
                                         _mm512_permutex2var_epi32(_mm512_loadu_si512(colors + 32), index[i],
                                                                   _mm512_loadu_si512(colors + 48)));
   }
-  // Four sub-blocks side by side are a lane: halves of their upper and their lower row.
+  // Four sub-blocks side by side fill a lane with half of their upper and lower rows.
   const __m512i upper[2] = {_mm512_unpacklo_epi32(pixels[0], pixels[1]),
                             _mm512_unpackhi_epi32(pixels[0], pixels[1])};
   const __m512i lower[2] = {_mm512_unpacklo_epi32(pixels[2], pixels[3]),
@@ -109,9 +108,30 @@ TILEPRESS_VBMI uint32_t read_indices(const uint8_t* bytes, const uint64_t marks[
   return 4 * (static_cast<uint32_t>(_mm_extract_epi16(end8, 7)) >> 8);
 }
 
-// A sub-block's bits are a multiple of four: it begins with a byte or amid one. All sixteen are laid out, in
-// 16 bytes each, as they lie in memory, those that begin amid a byte with the nibble before them on top; and
-// then written one after the other, each over the zeros behind the one before.
+/// Returns the nibble before each sub-block that begins amid a byte: the last nibble of the nearest sub-block
+/// before that has any bits.
+TILEPRESS_VBMI_INLINE __m512i nibbles_before(const uint32_t* pixels, __m512i packed, __m128i width8,
+                                             __mmask16 raw, uint32_t amid) {
+  const __m512i fourth_of_two = _mm512_setr_epi32(3, 7, 11, 15, 19, 23, 27, 31, 0, 0, 0, 0, 0, 0, 0, 0);
+  const auto fourth_of = [&](uint32_t half) TILEPRESS_VBMI {
+    const uint32_t* words = pixels + half * kBlockPixels / 2;
+    return _mm512_castsi512_si256(
+        _mm512_permutex2var_epi32(_mm512_loadu_si512(words), fourth_of_two, _mm512_loadu_si512(words + 16)));
+  };
+  const __m512i fourth = _mm512_inserti64x4(_mm512_castsi256_si512(fourth_of(0)), fourth_of(1), 1);
+  const __m512i last = _mm512_and_si512(_mm512_mask_mov_epi32(packed, raw, fourth), _mm512_set1_epi32(15));
+  const __mmask16 any = _mm_test_epi8_mask(width8, width8);
+  const __m512i those_before =
+      _mm512_setr_epi32(0, 1, 3, 7, 15, 31, 63, 127, 255, 511, 1023, 2047, 4095, 8191, 16383, 32767);
+  const __m512i number = _mm512_popcnt_epi32(_mm512_and_si512(those_before, _mm512_set1_epi32(any)));
+  return _mm512_maskz_permutexvar_epi32(static_cast<__mmask16>(amid),
+                                        _mm512_sub_epi32(number, _mm512_set1_epi32(1)),
+                                        _mm512_maskz_compress_epi32(any, last));
+}
+
+// The bits of a sub-block are a multiple of four, so that a sub-block begins at a byte or amid one. This lays
+// each of the sixteen out in 16 bytes as memory holds it, with the nibble before on top if it begins amid a
+// byte. Then it stores them in order, each over the zeros behind the sub-block before.
 TILEPRESS_VBMI WrittenBlock write_sub_blocks(const uint32_t* pixels, const uint16_t* indices,
                                              const uint8_t* widths, uint32_t mark_bits, uint8_t* out) {
   const auto marks_at = [&](uint32_t sub) TILEPRESS_VBMI {
@@ -145,27 +165,12 @@ TILEPRESS_VBMI WrittenBlock write_sub_blocks(const uint32_t* pixels, const uint1
   _mm512_storeu_si512(out + last_line, _mm512_setzero_si512());
   written.bits = 4 * all_nibbles;
   written.clean_bytes = last_line + kLineBytes;
-  // Which begin amid a byte: an odd number of those before have an odd number of nibbles.
+  // A sub-block begins amid a byte if an odd number of sub-blocks before it have an odd number of nibbles.
   uint32_t amid = (_mm_movepi8_mask(_mm_slli_epi16(width8, 7)) & ~uint32_t{raw}) << 1;
   for (uint32_t step = 1; step < kSubBlocks; step *= 2) amid ^= amid << step;
 
-  // The last nibble of each sub-block, and of the one before each that has any.
-  const __m512i fourth_of_two = _mm512_setr_epi32(3, 7, 11, 15, 19, 23, 27, 31, 0, 0, 0, 0, 0, 0, 0, 0);
-  const auto fourth_of = [&](uint32_t half) TILEPRESS_VBMI {
-    const uint32_t* words = pixels + half * kBlockPixels / 2;
-    return _mm512_castsi512_si256(
-        _mm512_permutex2var_epi32(_mm512_loadu_si512(words), fourth_of_two, _mm512_loadu_si512(words + 16)));
-  };
-  const __m512i fourth = _mm512_inserti64x4(_mm512_castsi256_si512(fourth_of(0)), fourth_of(1), 1);
-  const __m512i last = _mm512_and_si512(_mm512_mask_mov_epi32(packed, raw, fourth), _mm512_set1_epi32(15));
-  const __mmask16 any = _mm_test_epi8_mask(width8, width8);
-  const __m512i those_before =
-      _mm512_setr_epi32(0, 1, 3, 7, 15, 31, 63, 127, 255, 511, 1023, 2047, 4095, 8191, 16383, 32767);
-  const __m512i number = _mm512_popcnt_epi32(_mm512_and_si512(those_before, _mm512_set1_epi32(any)));
-  const __m512i before = _mm512_maskz_permutexvar_epi32(static_cast<__mmask16>(amid),
-                                                        _mm512_sub_epi32(number, _mm512_set1_epi32(1)),
-                                                        _mm512_maskz_compress_epi32(any, last));
-  // The first word of each: the nibble before, and the indices.
+  const __m512i before = nibbles_before(pixels, packed, width8, raw, amid);
+  // The first word of each sub-block: the nibble before, and the indices.
   const __m512i behind = _mm512_sub_epi32(_mm512_set1_epi32(32), _mm512_slli_epi32(width, 2));
   __m512i first = _mm512_maskz_sllv_epi32(static_cast<__mmask16>(~raw), packed, behind);
   first = _mm512_mask_srli_epi32(first, static_cast<__mmask16>(amid), first, 4);
@@ -191,7 +196,7 @@ TILEPRESS_VBMI WrittenBlock write_sub_blocks(const uint32_t* pixels, const uint1
     write(_mm512_extracti32x4_epi32(four, 3), sub + 3);
     from = _mm512_add_epi32(from, _mm512_set1_epi32(4));
   }
-  // Raw pixels that begin amid a byte end in a byte that is not among their sixteen.
+  // The last raw sub-block has a seventeenth byte if it begins amid a byte.
   if ((raw & amid & 0x8000) != 0) out[at / 2] = static_cast<uint8_t>(pixels[kBlockPixels - 1] << 4);
   return written;
 }

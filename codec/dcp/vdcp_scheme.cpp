@@ -22,12 +22,6 @@ class VdcpEncoder final : public DcpFamilyEncoder {
       : DcpFamilyEncoder(spec, format) {}
 
   uint32_t csb_bits() const override { return off_ ? 0 : kSubBlocks * csb_width(index_bits_); }
-  uint64_t palette_bits() const override {
-    return active() ? uint64_t{ccd_->entries} * (pixel_bits_ + 1) : 0;
-  }
-  void write_tables(BitWriter& out) const override {
-    if (active()) write_colors(ccd_->colors, ccd_->entries, pixel_bits_, out);
-  }
   uint32_t measure(const BlockContext&) const override {
     return active() ? payload_bits(view_->widths, pixel_bits_) : raw_block_bits();
   }

@@ -33,12 +33,6 @@ class HdcpEncoder final : public DcpFamilyEncoder {
     ras_bits_ = &analyses.get<RasBits>().subscribe(false);
   }
   uint32_t csb_bits() const override { return off_ ? classes_.csb_bits() : kSubBlocks * kSubBlockCsbBits; }
-  uint64_t palette_bits() const override {
-    return active() ? uint64_t{ccd_->entries} * (pixel_bits_ + 1) : 0;
-  }
-  void write_tables(BitWriter& out) const override {
-    if (active()) write_colors(ccd_->colors, ccd_->entries, pixel_bits_, out);
-  }
   uint32_t measure(const BlockContext&) const override { return choose().bits; }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     const uint32_t cls = classes_.class_of(*ras_bits_);
