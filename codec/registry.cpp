@@ -1,20 +1,40 @@
-// Registry: every scheme there is, one line each, in the order users see them.
+// Registry: the schemes in the order users see them.
 #include "scheme_factory.h"
 
 namespace tilepress {
+namespace {
 
-std::span<const SchemeInfo> scheme_registry() {
-  static const SchemeInfo kSchemes[] = {
+std::deque<SchemeInfo>& schemes() {
+  // Never destroyed: engines of other threads may outlive static objects.
+  static auto& registered = *new std::deque<SchemeInfo>{
       kDcpInfo,  kAdcpInfo,    kVdcpInfo, kHuffDcpInfo, kRasInfo, kRedInfo,
       kHdcpInfo, kPaletteInfo, kFbcInfo,  kTeInfo,      kBdiInfo, kBpcInfo,
   };
-  return kSchemes;
+  return registered;
+}
+
+}  // namespace
+
+const std::deque<SchemeInfo>& scheme_registry() {
+  return schemes();
 }
 
 const SchemeInfo* find_scheme(std::string_view name) {
-  for (const SchemeInfo& scheme : scheme_registry())
+  for (const SchemeInfo& scheme : schemes())
     if (name == scheme.name) return &scheme;
   return nullptr;
+}
+
+Result<void> register_scheme(const SchemeInfo& info) {
+  const std::string_view name = info.name;
+  const auto fail = [&](const char* reason) {
+    return Error{ErrorKind::kBadValue, "scheme '" + std::string(name) + "': " + reason};
+  };
+  if (name.empty() || name.find_first_of(":,\" \n") != name.npos) return fail("not a name for a scheme");
+  if (find_scheme(name) != nullptr) return fail("there is a scheme of this name already");
+  if (info.columns.size() > kOwnCounts) return fail("more than 4 columns");
+  schemes().push_back(info);
+  return {};
 }
 
 }  // namespace tilepress

@@ -1,147 +1,153 @@
-// Scheme specifications: the grammar `name:key=value,key=value` and the range of each key.
+// Scheme specifications: the grammar `name:key=value,key=value`; ranges come from the scheme's key table.
 #include "tilepress/scheme_spec.h"
 
+#include <algorithm>
 #include <bit>
+#include <cassert>
 #include <charconv>
+#include <optional>
 
-#include "palette/palette_file.h"
 #include "tilepress/scheme.h"
 
 namespace tilepress {
 namespace {
 
-bool parse_number(std::string_view text, uint32_t low, uint32_t high, uint32_t& out) {
-  uint32_t value = 0;
+template <class Number>
+std::optional<Number> parse_number(std::string_view text, Number low, Number high) {
+  Number value{};
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status != std::errc{} || end != text.data() + text.size() || value < low || value > high) return false;
-  out = value;
-  return true;
+  const bool whole = status == std::errc{} && end == text.data() + text.size();
+  return whole && value >= low && value <= high ? std::optional(value) : std::nullopt;
 }
 
-bool parse_share(std::string_view text, double& out) {
-  double value = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status != std::errc{} || end != text.data() + text.size() || !(value >= 0 && value <= 1)) return false;
-  out = value;
-  return true;
+std::vector<std::string_view> choices_of(const SchemeKey& key) {
+  std::vector<std::string_view> choices;
+  for (std::string_view rest = key.values;;) {
+    const size_t comma = rest.find(", ");
+    choices.push_back(rest.substr(0, comma));
+    if (comma == std::string_view::npos) return choices;
+    rest = rest.substr(comma + 2);
+  }
 }
 
-bool parse_policy(std::string_view text, FvcPolicy& out) {
-  constexpr std::pair<std::string_view, FvcPolicy> kPolicies[] = {{"lfc", FvcPolicy::kLfc},
-                                                                  {"2lfc", FvcPolicy::k2Lfc},
-                                                                  {"lru", FvcPolicy::kLru},
-                                                                  {"random", FvcPolicy::kRandom}};
-  for (const auto& [name, policy] : kPolicies)
-    if (text == name) {
-      out = policy;
-      return true;
-    }
-  return false;
+/// What a value of the key must be, for messages.
+std::string rule_of(const SchemeKey& key) {
+  const std::string low = std::to_string(key.low);
+  const std::string high = key.high == kLargestNumber ? "" : " to " + std::to_string(key.high);
+  switch (key.kind) {
+    case KeyKind::kNumber:
+      return "a whole number from " + low + high;
+    case KeyKind::kPowerOfTwo:
+      return "a power of two from " + low + high;
+    case KeyKind::kShare:
+      return "a number from 0 to 1";
+    case KeyKind::kFile:
+      return "the path of a file";
+    case KeyKind::kChoice:
+      break;
+  }
+  const auto choices = choices_of(key);
+  std::string text;
+  for (size_t i = 0; i < choices.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + std::string(choices[i]);
+  return text;
 }
 
-constexpr uint32_t kLargest = 0x7FFFFFFF;
+SchemeValue initial_value(const SchemeKey& key) {
+  if (key.kind == KeyKind::kShare) return 0.0;
+  if (key.kind == KeyKind::kFile) return std::vector<uint32_t>{};
+  return key.initial;
+}
 
-/// What values a key takes; empty if the scheme does not know the key. Where more is to be said about a bad
-/// value, `reason` says it.
-std::string_view set_key(SchemeSpec& spec, const SchemeInfo& info, std::string_view key,
-                         std::string_view value, PaletteFiles files, bool& ok, std::string& reason) {
-  if (info.takes_fvc_keys) {
-    if (key == "fvc") {
-      ok = parse_number(value, 2, 1024, spec.fvc.entries) && std::has_single_bit(spec.fvc.entries);
-      return "a power of two from 2 to 1024";
-    }
-    if (key == "policy") return ok = parse_policy(value, spec.fvc.policy), "lfc, 2lfc, lru or random";
-    if (key == "ways") return ok = parse_number(value, 1, 1024, spec.fvc.ways), "a divisor of the FVC size";
-    if (key == "sample")
-      return ok = parse_number(value, 1, kLargest, spec.fvc.sample), "a whole number from 1";
-    if (key == "period")
-      return ok = parse_number(value, 1, kLargest, spec.fvc.period), "a whole number from 1";
-    if (key == "coverage") return ok = parse_share(value, spec.coverage), "a number from 0 to 1";
+Result<SchemeValue> parse_value(const SchemeKey& key, const std::string& text, SchemeFiles files) {
+  const Error fault{ErrorKind::kBadValue, "must be " + rule_of(key)};
+  if (key.kind == KeyKind::kShare) {
+    const auto share = parse_number(text, 0.0, 1.0);
+    return share ? Result<SchemeValue>(*share) : fault;
   }
-  if (info.takes_ras_keys) {
-    if (key == "ycocg") {
-      ok = value == "0" || value == "1";
-      spec.ycocg = value == "1";
-      return "0 or 1";
-    }
-    if (key == "sizes") {
-      ok = value == "2" || value == "3" || value == "burst";
-      spec.ras_sizes = value == "2" ? RasSizes::kTwo : value == "burst" ? RasSizes::kBurst : RasSizes::kThree;
-      return "2, 3 or burst";
-    }
+  if (key.kind == KeyKind::kChoice) {
+    const auto choices = choices_of(key);
+    const auto at = std::find(choices.begin(), choices.end(), text);
+    return at != choices.end() ? Result<SchemeValue>(static_cast<uint32_t>(at - choices.begin())) : fault;
   }
-  if (info.takes_entries_key && key == "entries") {
-    ok = parse_number(value, 2, 1024, spec.entries) && std::has_single_bit(spec.entries);
-    return "a power of two from 2 to 1024";
+  if (key.kind == KeyKind::kFile) {
+    if (files == SchemeFiles::kLeave)
+      return text.empty() ? fault : Result<SchemeValue>(std::vector<uint32_t>{});
+    auto numbers = key.read_file(text);
+    return numbers ? Result<SchemeValue>(std::move(*numbers)) : numbers.error();
   }
-  if (info.takes_palette_keys && key == "from") return ok = value == "first", "first";
-  if (info.takes_palette_keys && key == "file") {
-    ok = files == PaletteFiles::kLeave ? !value.empty()
-                                       : read_palette_file(std::string(value), spec.palette, reason);
-    return "the path of a file";
-  }
-  if (info.takes_order_key && key == "order") {
-    ok = value == "raster" || value == "quad";
-    spec.order = value == "quad" ? LineOrder::kQuad : LineOrder::kRaster;
-    return "raster or quad";
-  }
+  const auto number = parse_number(text, key.low, key.high);
+  if (!number || (key.kind == KeyKind::kPowerOfTwo && !std::has_single_bit(*number))) return fault;
+  return SchemeValue(*number);
+}
+
+/// Parses one `key=value` into `spec` and adds the key to `given`.
+Result<void> parse_item(std::string_view item, const SchemeInfo& info, SchemeFiles files, SchemeSpec& spec,
+                        std::vector<std::string_view>& given) {
+  const auto fail = [](std::string text) { return Error{ErrorKind::kBadValue, std::move(text)}; };
+  const size_t equals = item.find('=');
+  if (equals == std::string_view::npos) return fail(std::string("'").append(item) + "' is not key=value");
+  const std::string key(item.substr(0, equals)), text(item.substr(equals + 1));
+  const auto at = std::find_if(info.keys.begin(), info.keys.end(),
+                               [&](const SchemeKey& known) { return key == known.name; });
+  if (at == info.keys.end()) return fail("unknown key '" + key + "'");
+  auto value = parse_value(*at, text, files);
+  if (!value) return Error{value.error().kind, key + "=" + text + ": " + value.error().text};
+  if (std::find(given.begin(), given.end(), key) != given.end()) return fail("key '" + key + "' given twice");
+  spec.values[static_cast<size_t>(at - info.keys.begin())].second = std::move(*value);
+  given.push_back(at->name);
   return {};
+}
+
+Result<void> parse_items(std::string_view rest, const SchemeInfo& info, SchemeFiles files, SchemeSpec& spec) {
+  std::vector<std::string_view> given;
+  while (!rest.empty()) {
+    const size_t comma = rest.find(',');
+    if (comma != std::string_view::npos && comma + 1 == rest.size())
+      return Error{ErrorKind::kBadValue, "nothing after the last ','"};
+    if (auto parsed = parse_item(rest.substr(0, comma), info, files, spec, given); !parsed) return parsed;
+    rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
+  }
+  return info.check != nullptr ? info.check(spec, given) : Result<void>{};
 }
 
 }  // namespace
 
-std::optional<SchemeSpec> parse_scheme(std::string_view text, std::string& error, PaletteFiles files) {
+const SchemeValue& SchemeSpec::value(std::string_view key) const {
+  const auto at =
+      std::find_if(values.begin(), values.end(), [&](const auto& each) { return each.first == key; });
+  assert(at != values.end());
+  return at->second;
+}
+
+Result<SchemeSpec> parse_scheme(std::string_view text, SchemeFiles files) {
   SchemeSpec spec;
   spec.text = text;
   const size_t colon = text.find(':');
   spec.name = text.substr(0, colon);
-  const SchemeInfo* info = find_scheme(spec.name);
-  const auto fail = [&](std::string reason) {
-    error = "scheme '" + spec.text + "': " + std::move(reason);
-    return std::nullopt;
+  const auto fail = [&](ErrorKind kind, const std::string& reason) {
+    return Error{kind, "scheme '" + spec.text + "': " + reason};
   };
+  const SchemeInfo* info = find_scheme(spec.name);
   if (info == nullptr) {
     std::string known;
     for (const SchemeInfo& scheme : scheme_registry())
       known += std::string(known.empty() ? "" : ", ") + scheme.name;
-    return fail("unknown scheme '" + spec.name + "' (there are " + known + ")");
+    return fail(ErrorKind::kBadValue, "unknown scheme '" + spec.name + "' (there are " + known + ")");
   }
-  std::string_view rest = colon == std::string_view::npos ? std::string_view{} : text.substr(colon + 1);
-  if (colon != std::string_view::npos && rest.empty()) return fail("nothing after ':'");
-  std::string seen = ",";
-  while (!rest.empty()) {
-    const size_t comma = rest.find(',');
-    const std::string_view item = rest.substr(0, comma);
-    if (comma != std::string_view::npos && comma + 1 == rest.size())
-      return fail("nothing after the last ','");
-    rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
-    const size_t equals = item.find('=');
-    if (equals == std::string_view::npos) return fail("'" + std::string(item) + "' is not key=value");
-    const std::string key(item.substr(0, equals)), value(item.substr(equals + 1));
-    bool ok = false;
-    std::string reason;
-    const std::string_view allowed = set_key(spec, *info, key, value, files, ok, reason);
-    if (allowed.empty()) return fail("unknown key '" + key + "'");
-    if (!ok)
-      return fail(key + "=" + value + ": " + (reason.empty() ? "must be " + std::string(allowed) : reason));
-    if (seen.find("," + key + ",") != std::string::npos) return fail("key '" + key + "' given twice");
-    seen += key + ",";
-  }
-  if (seen.find(",file,") != std::string::npos &&
-      (seen.find(",from,") != std::string::npos || seen.find(",entries,") != std::string::npos))
-    return fail("from and entries do not go with file");
-  if (spec.fvc.ways != 0 && spec.fvc.entries % spec.fvc.ways != 0)
-    return fail("ways=" + std::to_string(spec.fvc.ways) + ": must divide the FVC size " +
-                std::to_string(spec.fvc.entries));
-  if (spec.fvc.ways == spec.fvc.entries) spec.fvc.ways = 0;  // the same FVC: share it
+  for (const SchemeKey& key : info->keys) spec.values.emplace_back(key.name, initial_value(key));
+  const std::string_view items = colon == std::string_view::npos ? "" : text.substr(colon + 1);
+  if (colon != std::string_view::npos && items.empty())
+    return fail(ErrorKind::kBadValue, "nothing after ':'");
+  if (const auto parsed = parse_items(items, *info, files, spec); !parsed)
+    return fail(parsed.error().kind, parsed.error().text);
   return spec;
 }
 
 std::vector<SchemeSpec> default_schemes() {
   std::vector<SchemeSpec> schemes;
-  std::string error;
   for (const char* name : {"dcp", "adcp", "vdcp", "huffdcp", "ras", "red", "hdcp"})
-    schemes.push_back(*parse_scheme(name, error));
+    schemes.push_back(*parse_scheme(name));
   return schemes;
 }
 

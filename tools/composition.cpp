@@ -62,10 +62,11 @@ bool read_composition(const std::vector<Layer>& layers, const CompositionOptions
       for (uint32_t bx = 0; bx < layer.surface.blocks_x(); ++bx) {
         if (!visible(bx, by)) continue;
         // A surface of which nothing shows needs not even its tables.
-        if (!open && !reader.open(layer.surface, options.read, error)) {
-          error = "surface " + std::to_string(i) + ": " + error;
-          return false;
-        }
+        if (!open)
+          if (const auto opened = reader.open(layer.surface, options.read); !opened) {
+            error = "surface " + std::to_string(i) + ": " + opened.error().text;
+            return false;
+          }
         open = true;
         if (!reader.read_block(bx, by, block)) {
           error = "surface " + std::to_string(i) + ": bits that no encoder writes";

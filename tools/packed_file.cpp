@@ -116,12 +116,18 @@ bool read_surface_header(std::istream& in, uint64_t offset, uint64_t file_bytes,
   // A palette's file name may hold spaces and UTF-8; what moves a terminal's cursor may not be in it.
   if (std::any_of(spec.begin(), spec.end(), [](unsigned char c) { return c < ' ' || c == 0x7F; }))
     return fail("a scheme specification that is no text");
-  const auto scheme = parse_scheme(spec, error, PaletteFiles::kLeave);
-  if (!scheme) return false;
+  const auto scheme = parse_scheme(spec, SchemeFiles::kLeave);
+  if (!scheme) {
+    error = scheme.error().text;
+    return false;
+  }
   out.scheme = *scheme;
   extent.body_offset = offset + kSurfaceHeaderBytes + spec_bytes + kCrcBytes;
   const uint64_t room = file_bytes - extent.body_offset;
-  if (!out.possible(error)) return false;
+  if (const auto checked = out.possible(); !checked) {
+    error = checked.error().text;
+    return false;
+  }
   if (out.table_bits / 8 > room || extent.payload_bytes > room)
     return fail("cut short, or a header that claims too much");
   extent.body_bytes =
@@ -263,7 +269,8 @@ bool PackedFileReader::read(uint32_t index, CompressedSurface& out, std::string&
     if (!in_->read(reinterpret_cast<char*>(out.payload.data() + i * out.slot_bytes()), bytes))
       return fail("cannot be read");
   }
-  return out.consistent(error) || fail(error);
+  const auto checked = out.consistent();
+  return checked ? true : fail(checked.error().text);
 }
 
 }  // namespace tilepress

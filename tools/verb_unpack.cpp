@@ -92,7 +92,10 @@ bool read_part(const CompressedSurface& surface, const UnpackOptions& options, P
     return false;
   }
   SurfaceReader reader;
-  if (!reader.open(surface, options.read, error)) return false;
+  if (const auto opened = reader.open(surface, options.read); !opened) {
+    error = opened.error().text;
+    return false;
+  }
   if (!reader.read_rect(part.rect, part.words)) {
     error = "bits that no encoder writes";
     return false;

@@ -16,15 +16,15 @@
 //             zero (the "immediate"); then a delta of j bytes each, sign-extended, added modulo 2^8k
 //   tables    none
 //
-// Modelling decisions. The mask is counted: the original's table of sizes leaves it out, but no decoder can
-// do without. The base is the first element that is no sign-extended delta from zero; elements that are take
-// the immediate. The encoding with the fewest bits wins, the lowest code among equals, raw if none is
-// smaller. A zero line has nothing but its code (the original stores one byte). Lines take the block's pixels
-// row by row, two rows of 32-bit pixels a line; `order=quad` takes them in traversal order.
+// Modelling decisions. The mask counts: the original's table of sizes leaves it out, but a decoder needs it.
+// The base is the first element that is not a sign-extended delta from zero; elements that are use the
+// immediate. The encoding with the fewest bits wins; ties go to the lowest code, and the line is raw if no
+// encoding is smaller. A zero line has only its code (the original stores one byte). Lines take the block's
+// pixels row by row, two rows of 32-bit pixels per line; `order=quad` takes them in traversal order.
 #include <optional>
 
-#include "memory_lines.h"
-#include "raw_bits.h"
+#include "pixels/memory_lines.h"
+#include "pixels/raw_bits.h"
 #include "scheme_factory.h"
 
 namespace tilepress {
@@ -42,7 +42,7 @@ struct BaseDelta {
 constexpr BaseDelta kBaseDeltas[] = {{64, 8}, {64, 16}, {64, 32},
                                      {32, 8}, {32, 16}, {16, 8}};  // from kFirstBase
 
-/// Element `i` of `bits` bits of a line.
+/// Returns element `i` of `bits` bits of a line.
 uint64_t element(const uint32_t* line, uint32_t bits, uint32_t i) {
   if (bits == 64) return uint64_t{line[2 * i]} | uint64_t{line[2 * i + 1]} << 32;
   if (bits == 32) return line[i];
@@ -60,7 +60,7 @@ bool fits(uint64_t value, const BaseDelta& code) {
   return sign_extend(value, code.delta_bits, code.base_bits) == value;
 }
 
-/// The base with which `code` represents the line; nothing if it cannot.
+/// Returns the base with which `code` represents the line, or nothing if it cannot.
 std::optional<uint64_t> base_of(const uint32_t* line, const BaseDelta& code) {
   std::optional<uint64_t> base;
   for (uint32_t i = 0; i < code.elements(); ++i) {
@@ -149,13 +149,10 @@ bool read_line(BitReader& in, uint32_t code, uint32_t* line) {
 class BdiEncoder final : public BlockEncoder {
  public:
   BdiEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions&)
-      : order_(spec.order), pixel_bits_(format.pixel_bits) {}
+      : order_(line_order(spec)), pixel_bits_(format.pixel_bits) {}
 
   SchemeNeeds needs() const override { return {.raster = true, .raster_to_encode = true}; }
-  void begin_frame(const FrameContext&) override {}
   uint32_t csb_bits() const override { return kBlockPixels * pixel_bits_ / 512 * kCodeBits; }
-  uint64_t palette_bits() const override { return 0; }
-  void write_tables(BitWriter&) const override {}
   uint32_t measure(const BlockContext& block) const override {
     const LineWords lines = to_line_words(block.block, order_, pixel_bits_);
     if (block.uniform) return lines.count / kLineWords * code_bits(choose_code(lines.words.data()));
@@ -180,7 +177,7 @@ class BdiEncoder final : public BlockEncoder {
 class BdiDecoder final : public BlockDecoder {
  public:
   BdiDecoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions&)
-      : order_(spec.order), pixel_bits_(format.pixel_bits) {}
+      : order_(line_order(spec)), pixel_bits_(format.pixel_bits) {}
 
   bool begin_frame(BitReader&, uint64_t table_bits, uint32_t csb_bits) override {
     return table_bits == 0 && csb_bits == kBlockPixels * pixel_bits_ / 512 * kCodeBits;
@@ -201,16 +198,13 @@ class BdiDecoder final : public BlockDecoder {
 
 }  // namespace
 
-const SchemeInfo kBdiInfo = {"bdi",
-                             "BDI",
-                             "base-delta-immediate on 64-byte lines of the block, masks counted",
-                             "Pekhimenko et al. 2012",
-                             false,
-                             false,
-                             make_encoder<BdiEncoder>,
-                             make_decoder<BdiDecoder>,
-                             false,
-                             false,
-                             true};
+const SchemeInfo kBdiInfo = {.name = "bdi",
+                             .label = "BDI",
+                             .family = "lines",
+                             .summary = "base-delta-immediate on 64-byte lines of the block, masks counted",
+                             .source = "Pekhimenko et al. 2012",
+                             .make_encoder = make_encoder<BdiEncoder>,
+                             .make_decoder = make_decoder<BdiDecoder>,
+                             .keys = kOrderKey};
 
 }  // namespace tilepress

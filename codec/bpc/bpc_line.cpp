@@ -25,7 +25,7 @@ bool extends(uint32_t word, uint32_t bits) {
   return value >= -half && value < half;
 }
 
-/// Hands each code of the line to put(value, bits).
+/// Calls put(value, bits) for each code of the line.
 template <typename Put>
 void for_each_code(const uint32_t* words, Put&& put) {
   const uint32_t base = words[0];
@@ -82,7 +82,7 @@ uint32_t read_base(BitReader& in) {
   return bits == 0 ? 0 : sign_extended(in.get(bits), bits);
 }
 
-/// The change of a plane that is not part of a run of zeros; `in` stands behind the 000 of its code.
+/// Reads the change of a plane outside runs of zeros. `in` is behind the 000 of its code.
 bool read_rare_change(BitReader& in, uint32_t above, uint32_t& change) {
   const auto kind = static_cast<uint32_t>(in.get(2));
   if (kind == 0) return change = kAllOnes, true;
@@ -123,7 +123,7 @@ bool bpc_line_read(BitReader& in, uint32_t* words) {
   for (uint32_t i = 0; i + 1 < kBpcWords; ++i) {
     uint64_t delta = 0;
     for (uint32_t b = 0; b < kPlanes; ++b) delta |= uint64_t{planes[b] >> i & 1} << b;
-    // A delta that leaves the 32 bits has another sign than the difference it stands for.
+    // A delta that leaves 32 bits has another sign than the difference that it codes.
     const uint64_t next = words[i] + delta;
     if ((next >> 32 & 1) != 0) return false;
     words[i + 1] = static_cast<uint32_t>(next);

@@ -22,10 +22,10 @@ namespace tilepress {
 
 constexpr uint32_t kBpcWords = 32;
 
-/// Bits of the stream.
+/// Returns the bits of the stream.
 uint32_t bpc_line_bits(const uint32_t* words);
 void bpc_line_write(const uint32_t* words, BitWriter& out);
-/// False: no encoder writes these bits.
+/// Returns false if no encoder writes these bits.
 bool bpc_line_read(BitReader& in, uint32_t* words);
 
 }  // namespace tilepress

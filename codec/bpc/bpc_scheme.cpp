@@ -5,13 +5,13 @@
 //   payload   the lines in order: the stream of bpc_line.h and zeros up to a whole byte, or 32 raw words
 //   tables    none
 //
-// Modelling decisions. A stream ends by itself, so a decoder needs no size to find the next line; a memory
-// controller does, to know what to fetch before it decodes, as the CSB tells it for the DCP schemes. Hence
-// sizes in the CSB, in bytes, since 7 bits then suffice. A stream of more than 127 bytes is stored raw: no
-// line costs more than its 1024 bits. Lines take the block's pixels row by row, four rows of 32-bit pixels a
-// line; `order=quad` takes them in traversal order. Two 16-bit pixels make a word.
+// Modelling decisions. A stream ends by itself, so a decoder needs no size to find the next line. A memory
+// controller needs the size, to know what to fetch. So the CSB has sizes, in bytes, for which 7 bits suffice.
+// A stream of more than 127 bytes is stored raw: no line costs more than its 1024 bits. Lines take the
+// block's pixels row by row, four rows of 32-bit pixels per line; `order=quad` takes them in traversal order.
+// Two 16-bit pixels make a word.
 #include "bpc/bpc_line.h"
-#include "memory_lines.h"
+#include "pixels/memory_lines.h"
 #include "scheme_factory.h"
 
 namespace tilepress {
@@ -20,7 +20,7 @@ namespace {
 constexpr uint32_t kSizeBits = 7;
 constexpr uint32_t kRawLineBits = kBpcWords * 32;
 
-/// Bytes of a line's stream; 0 = raw.
+/// Returns the bytes of a line's stream; 0 = raw.
 uint32_t line_bytes(const uint32_t* words) {
   const uint32_t bytes = (bpc_line_bits(words) + 7) / 8;
   return bytes < 1u << kSizeBits ? bytes : 0;
@@ -28,7 +28,7 @@ uint32_t line_bytes(const uint32_t* words) {
 
 struct BpcCoder {
   BpcCoder(const SchemeSpec& spec, const FormatTraits& format)
-      : order(spec.order),
+      : order(line_order(spec)),
         pixel_bits(format.pixel_bits),
         lines(kBlockPixels * format.pixel_bits / kRawLineBits) {}
   const LineOrder order;
@@ -42,10 +42,7 @@ class BpcEncoder final : public BlockEncoder {
       : coder_(spec, format) {}
 
   SchemeNeeds needs() const override { return {.raster = true, .raster_to_encode = true}; }
-  void begin_frame(const FrameContext&) override {}
   uint32_t csb_bits() const override { return coder_.lines * kSizeBits; }
-  uint64_t palette_bits() const override { return 0; }
-  void write_tables(BitWriter&) const override {}
   uint32_t measure(const BlockContext& block) const override {
     const LineWords lines = to_line_words(block.block, coder_.order, coder_.pixel_bits);
     if (block.uniform) return coder_.lines * line_bits(lines.words.data());
@@ -108,16 +105,13 @@ class BpcDecoder final : public BlockDecoder {
 
 }  // namespace
 
-const SchemeInfo kBpcInfo = {"bpc",
-                             "BPC",
-                             "bit-plane compression of 128-byte lines of the block",
-                             "Kim et al. 2016",
-                             false,
-                             false,
-                             make_encoder<BpcEncoder>,
-                             make_decoder<BpcDecoder>,
-                             false,
-                             false,
-                             true};
+const SchemeInfo kBpcInfo = {.name = "bpc",
+                             .label = "BPC",
+                             .family = "lines",
+                             .summary = "bit-plane compression of 128-byte lines of the block",
+                             .source = "Kim et al. 2016",
+                             .make_encoder = make_encoder<BpcEncoder>,
+                             .make_decoder = make_decoder<BpcDecoder>,
+                             .keys = kOrderKey};
 
 }  // namespace tilepress

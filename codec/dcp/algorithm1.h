@@ -7,9 +7,9 @@
 
 namespace tilepress {
 
-/// `counts` are the FVC counts in descending order, `frame_pixels` the pixels sampled, `max_width` = log2 N.
-/// Returns i, the CCD having 2^i entries; 0 if nothing helps. The loop runs i = 0 … log2 N, one step more
-/// than the paper's text says.
+/// Returns i for a CCD of 2^i entries, or 0 if no size saves bits. `counts` are the FVC counts in descending
+/// order, `frame_pixels` the pixels sampled, and `max_width` is log2 N. The loop runs i = 0 … log2 N, one
+/// step more than the paper's text says.
 inline uint32_t optimal_width(std::span<const uint32_t> counts, uint64_t frame_pixels, uint32_t max_width,
                               uint32_t pixel_bits) {
   uint64_t expected_bits = frame_pixels * pixel_bits;

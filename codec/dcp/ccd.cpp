@@ -1,10 +1,11 @@
-// Common Colors Dictionary: built from an FVC, looked up by colour, written and read back.
+// Common Colors Dictionary: built from an FVC, and looked up by colour.
 #include "dcp/ccd.h"
 
 #include <algorithm>
 
 #include "dcp/fvc.h"
-#include "simd/kernels.h"
+#include "dcp/probe_kernels.h"
+#include "dcp/slot_kernels.h"
 
 namespace tilepress {
 
@@ -29,7 +30,7 @@ void Ccd::build(const Fvc& fvc) {
 
 void CcdLookup::build(const Ccd& ccd) {
   collision_free_ = false;
-  has_slots_ = kernels().byte_permutes && ccd.entries <= SlotTable::kSlots;
+  has_slots_ = slot_kernels().byte_permutes && ccd.entries <= SlotTable::kSlots;
   if (has_slots_) {
     slots_.clear();
     for (uint32_t i = 0; i < ccd.colors.size(); ++i) slots_.insert(i, ccd.colors[i]);
@@ -63,8 +64,8 @@ bool CcdLookup::place_all(const Ccd& ccd, bool probing) {
 }
 
 void CcdLookup::find_block(const uint32_t* pixels, uint16_t* indices, uint8_t* widths) const {
-  if (has_slots_) return kernels().index_slots(pixels, slots_, indices, widths);
-  if (collision_free_) return kernels().find(pixels, table_, indices, widths);
+  if (has_slots_) return slot_kernels().index(pixels, slots_, indices, widths);
+  if (collision_free_) return probe_kernels().find(pixels, table_, indices, widths);
   uint32_t last_color = pixels[0];
   uint16_t last_index = find(last_color);
   for (uint32_t i = 0; i < kBlockPixels; ++i) {
@@ -81,32 +82,7 @@ void CcdLookup::find_block(const uint32_t* pixels, const FewColors& few, uint16_
                            uint8_t* widths) const {
   uint32_t found[FewColors::kMost];
   for (uint32_t n = 0; n < few.count; ++n) found[n] = find(few.colors[n]);
-  kernels().find_few(pixels, few, found, indices, widths);
-}
-
-void Rccd::write(const Ccd& ccd, uint32_t slots, uint32_t pixel_bits, BitWriter& out) {
-  for (uint32_t i = 0; i < slots; ++i) {
-    const bool valid = i < ccd.colors.size();
-    out.put(valid ? 1 : 0, 1);
-    out.put(valid ? ccd.colors[i] : 0, pixel_bits);
-  }
-}
-
-bool Rccd::read(BitReader& in, uint64_t slot_count, uint32_t pixel_bits) {
-  if (!std::has_single_bit(slot_count) || slot_count > 1024) return false;
-  slots = static_cast<uint32_t>(slot_count);
-  colors.clear();
-  bool ended = false;
-  for (uint32_t i = 0; i < slots; ++i) {
-    const bool valid = in.get(1) != 0;
-    const auto color = static_cast<uint32_t>(in.get(pixel_bits));
-    if (valid && ended) return false;
-    if (valid)
-      colors.push_back(color);
-    else
-      ended = true;
-  }
-  return !in.overran();
+  probe_kernels().find_few(pixels, few, found, indices, widths);
 }
 
 }  // namespace tilepress

@@ -1,5 +1,5 @@
-// Common Colors Dictionary: the colours an FVC held at a frame's end, most frequent first (paper §The CCD;
-// spec §4).
+// Common Colors Dictionary: the colours of an FVC at a frame's end, most frequent first (paper §The CCD; spec
+// §4).
 #pragma once
 
 #include <array>
@@ -7,12 +7,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "simd/index_widths.h"
-#include "simd/kernels.h"
-#include "simd/probe_table.h"
-#include "tilepress/bit_io.h"
+#include "dcp/index_widths.h"
+#include "dcp/probe_table.h"
+#include "dcp/slot_table.h"
+#include "pixels/few_colors.h"
 #include "tilepress/block.h"
-#include "tilepress/scheme.h"
 
 namespace tilepress {
 
@@ -20,22 +19,22 @@ class Fvc;
 
 /// Built from the FVC of an earlier frame; index 0 is the most frequent colour.
 struct Ccd {
-  uint32_t entries = 0;          ///< slots N = those of the FVC; colors may be fewer
+  uint32_t entries = 0;          ///< slots N of the FVC; the colours may be fewer
   std::vector<uint32_t> colors;  ///< by index
   std::vector<uint32_t> counts;  ///< FVC counts, descending
   uint64_t samples = 0;          ///< pixels that entered the FVC
-  double coverage = 0;           ///< FVC coverage of the frame it came from
+  double coverage = 0;           ///< FVC coverage of its frame
 
   uint32_t index_bits() const { return static_cast<uint32_t>(std::bit_width(entries) - 1); }  ///< M = log2 N
   void build(const Fvc& fvc);
 };
 
-/// Finds colours in a CCD. Small dictionaries get a table without collisions, found by trying multipliers,
-/// which a SIMD kernel reads many pixels at a time; large ones an open-addressed table.
+/// Finds colours in a CCD. A small dictionary gets a collision-free table, found by trying multipliers, that
+/// SIMD kernels read many pixels at a time. A large dictionary gets an open-addressed table.
 class CcdLookup {
  public:
   void build(const Ccd& ccd);
-  /// CCD index of the colour, kNotInCcd if it has none.
+  /// Returns the CCD index of the colour, or kNotInCcd.
   uint16_t find(uint32_t color) const {
     if (has_slots_) {
       const uint32_t slot = slots_.find(color);
@@ -45,12 +44,11 @@ class CcdLookup {
       if (table_.values[at] == kNotInCcd || table_.colors[at] == color)
         return static_cast<uint16_t>(table_.values[at]);
   }
-  /// A block of 64 pixels in traversal order: its indices, and the widths of its sub-blocks; see
-  /// BlockContext.
+  /// Looks up 64 pixels in traversal order: fills 64 indices, and 16 widths of sub-blocks; see CcdView.
   void find_block(const uint32_t* pixels, uint16_t* indices, uint8_t* widths) const;
   /// The same for a block of few colours.
   void find_block(const uint32_t* pixels, const FewColors& few, uint16_t* indices, uint8_t* widths) const;
-  /// The dictionary's colours by index, for kernels; null if it is not kept so.
+  /// Returns the dictionary as a slot table, or null if it is not kept as one.
   const SlotTable* slots() const { return has_slots_ ? &slots_ : nullptr; }
 
  private:
@@ -58,19 +56,7 @@ class CcdLookup {
   ProbeTable table_;
   bool collision_free_ = false;
   SlotTable slots_;
-  bool has_slots_ = false;  ///< slots_ holds the dictionary, and table_ nothing
-};
-
-/// The reversed dictionary that travels with a compressed surface: slots of a valid bit and a colour, so
-/// (pixel bits + 1) bits each, 33 for 32-bit pixels.
-struct Rccd {
-  uint32_t slots = 0;
-  std::vector<uint32_t> colors;  ///< by index; the valid ones
-
-  /// Writes the first `slots` entries of `ccd`.
-  static void write(const Ccd& ccd, uint32_t slots, uint32_t pixel_bits, BitWriter& out);
-  /// False if the number of slots is not a power of two up to 1024, or a valid slot follows an invalid one.
-  bool read(BitReader& in, uint64_t slot_count, uint32_t pixel_bits);
+  bool has_slots_ = false;  ///< slots_ holds the dictionary; table_ is not used
 };
 
 }  // namespace tilepress

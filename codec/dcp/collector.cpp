@@ -1,4 +1,4 @@
-// Collector: which of the FVC's two forms collects, and when.
+// Collector: chooses the form of the FVC that collects.
 #include "dcp/collector.h"
 
 #include "tilepress/simd.h"
@@ -13,7 +13,7 @@ Collector::Collector(const FvcConfig& config, const FormatTraits& format) : fvc_
 
 void Collector::begin_frame(uint64_t ordinal) {
   collecting_ = ordinal % fvc_.config().period == 0;
-  lookups_ = {.dictionary = wanted && has_ccd_ ? lookup_.slots() : nullptr,
+  lookups_ = {.dictionary = wanted && ccd() != nullptr ? lookup_.slots() : nullptr,
               .indices = indices_.data(),
               .widths = widths_.data(),
               .members = collecting_ && fast_ ? fast_->members() : nullptr,
@@ -58,7 +58,7 @@ void Collector::build_ccd() {
   if (!collecting_) return;
   ccd_.build(fvc_);
   lookup_.build(ccd_);
-  has_ccd_ = true;
+  view_.ccd = &ccd_;
 }
 
 void Collector::look_up(const uint32_t* pixels, bool uniform, const FewColors* few) {
@@ -74,9 +74,10 @@ void Collector::look_up(const uint32_t* pixels, bool uniform, const FewColors* f
 }
 
 bool Collector::load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels) {
-  const bool uniform = kernels().load_slots(top_left, stride, pixels, lookups_);
+  const bool uniform = slot_kernels().load(top_left, stride, pixels, lookups_);
   has_found_ = !uniform && lookups_.members != nullptr;
-  if (!uniform && wanted && has_ccd_ && lookups_.dictionary == nullptr) look_up(pixels, false, nullptr);
+  if (!uniform && wanted && ccd() != nullptr && lookups_.dictionary == nullptr)
+    look_up(pixels, false, nullptr);
   return uniform;
 }
 

@@ -1,59 +1,74 @@
-// What the schemes of the DCP family share: the CCD in force, dynamic enabling, the rCCD.
+// DCP family: the CCD in force, dynamic enabling and the rCCD, which its schemes share.
 #pragma once
 
 #include <array>
 #include <bit>
 
-#include "dcp/ccd.h"
-#include "raw_bits.h"
+#include "dcp/ccd_view.h"
+#include "dcp/sub_blocks.h"
+#include "dictionary/color_table.h"
+#include "pixels/raw_bits.h"
 #include "tilepress/scheme.h"
 
 namespace tilepress {
 
-/// Encoder base: knows the CCD of the frame and whether the coverage threshold switches the scheme off
-/// (paper §Dynamically Enabling DCP).
+/// Encoder base: has the CCD of the frame, and switches the scheme off below the coverage threshold (paper
+/// §Dynamically Enabling DCP).
 class DcpFamilyEncoder : public BlockEncoder {
  public:
   DcpFamilyEncoder(const SchemeSpec& spec, const FormatTraits& format)
-      : coverage_threshold_(spec.coverage),
-        index_bits_(static_cast<uint32_t>(std::bit_width(spec.fvc.entries) - 1)),
+      : fvc_(fvc_config(spec)),
+        coverage_threshold_(spec.share("coverage")),
+        index_bits_(static_cast<uint32_t>(std::bit_width(fvc_.entries) - 1)),
         pixel_bits_(format.pixel_bits) {}
-  SchemeNeeds needs() const override { return {.ccd = true}; }
-  void begin_frame(const FrameContext& frame) override {
-    ccd_ = frame.ccd;
+  void subscribe(SharedAnalyses& analyses) override { view_ = &analyses.provided<CcdSource>().view_of(fvc_); }
+  void begin_frame(const FrameContext&) override {
+    ccd_ = view_->ccd;
     off_ = ccd_ != nullptr && ccd_->coverage < coverage_threshold_;
+  }
+  /// The whole CCD as an rCCD, unless a scheme overrides both.
+  uint64_t palette_bits() const override {
+    return active() ? uint64_t{ccd_->entries} * (pixel_bits_ + 1) : 0;
+  }
+  void write_tables(BitWriter& out) const override {
+    if (active()) write_colors(ccd_->colors, ccd_->entries, pixel_bits_, out);
   }
 
  protected:
-  /// True if sub-blocks may be looked up: there is a CCD and the scheme is on.
+  /// True if the frame has a CCD and the scheme is on.
   bool active() const { return ccd_ != nullptr && !off_; }
+  SubBlocks sub_blocks(const BlockContext& block) const {
+    return {block.pixels, view_->indices, active() ? view_->widths : kAllRawWidths.data()};
+  }
   uint32_t raw_sub_block_bits() const { return kSubBlockPixels * pixel_bits_; }
   uint32_t raw_block_bits() const { return kBlockPixels * pixel_bits_; }
 
+  const FvcConfig fvc_;
   const double coverage_threshold_;
   const uint32_t index_bits_;  ///< M = log2 N
   const uint32_t pixel_bits_;
-  const Ccd* ccd_ = nullptr;
+  const CcdView* view_ = nullptr;
+  const Ccd* ccd_ = nullptr;  ///< in force for the frame; null while there is none
   bool off_ = false;
 };
 
-/// Decoder base: an rCCD of (pixel bits + 1) bits a slot; csb_bits = 0 marks a frame the scheme was off for.
+/// Decoder base. 0 CSB bits mark a frame that the scheme was off for.
 class DcpFamilyDecoder : public BlockDecoder {
  public:
   DcpFamilyDecoder(const SchemeSpec& spec, const FormatTraits& format)
-      : index_bits_(static_cast<uint32_t>(std::bit_width(spec.fvc.entries) - 1)),
+      : index_bits_(static_cast<uint32_t>(std::bit_width(spec.number("fvc")) - 1)),
         pixel_bits_(format.pixel_bits) {}
   bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override;
 
  protected:
-  /// CSB bits a block has when the scheme is on.
+  /// Returns the CSB bits of a block while the scheme is on.
   virtual uint32_t on_csb_bits() const = 0;
-  /// Reads a block. `marks`, of eight sub-blocks each and `mark_bits` ≤ 7 bits a mark, have the width of its
-  /// indices for each, all ones for a raw one. False: a width over M, an index beyond the rCCD, too few bits.
+  /// Reads a block. `marks` has the index widths of eight sub-blocks per word, `mark_bits` ≤ 7 bits each, all
+  /// ones for a raw sub-block. Returns false for a width over M, an index beyond the rCCD, or missing bits.
   bool read_sub_blocks(const uint64_t marks[2], uint32_t mark_bits, BitReader& payload, Block& out) const;
   const uint32_t index_bits_;
   const uint32_t pixel_bits_;
-  Rccd rccd_;
+  ColorTable rccd_;
   bool off_ = false;
 
  private:
@@ -61,7 +76,7 @@ class DcpFamilyDecoder : public BlockDecoder {
   bool read_at_once(const uint64_t marks[2], uint32_t mark_bits, BitReader& payload, Block& out) const;
   bool read_indices(uint32_t width, uint32_t sub, BitReader& payload, Block& out) const;
   bool reads_at_once_ = false;
-  std::array<uint32_t, SlotTable::kSlots> colors_{};  ///< of the rCCD, if it reads at once
+  std::array<uint32_t, SlotTable::kSlots> colors_{};  ///< of the rCCD, for the read kernel
 };
 
 }  // namespace tilepress

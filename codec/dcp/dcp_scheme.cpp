@@ -9,9 +9,8 @@
 
 #include "dcp/algorithm1.h"
 #include "dcp/dcp_family.h"
-#include "dcp/vdcp.h"
+#include "dcp/sub_blocks.h"
 #include "scheme_factory.h"
-#include "simd/kernels.h"
 
 namespace tilepress {
 namespace {
@@ -30,27 +29,27 @@ class DcpEncoder : public DcpFamilyEncoder {
     return active() ? (uint64_t{1} << width_) * (pixel_bits_ + 1) : 0;
   }
   void write_tables(BitWriter& out) const override {
-    if (active()) Rccd::write(*ccd_, 1u << width_, pixel_bits_, out);
+    if (active()) write_colors(ccd_->colors, 1u << width_, pixel_bits_, out);
   }
-  uint32_t measure(const BlockContext& block) const override {
+  uint32_t measure(const BlockContext&) const override {
     if (!active()) return raw_block_bits();
-    const uint32_t compressed = kernels().count_up_to(block.ccd_widths, width_);
+    const uint32_t compressed = count_up_to(view_->widths, width_);
     return kSubBlockPixels * (compressed * width_ + (kSubBlocks - compressed) * pixel_bits_);
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     uint8_t widths[kSubBlocks];
     const uint32_t marks = choose_widths(block, widths);
     if (!off_) csb.put(marks, kSubBlocks);
-    write_indices(block, widths, width_, pixel_bits_, payload);
+    write_payload({block.pixels, view_->indices, widths}, width_, pixel_bits_, payload);
   }
   StoredBlock store(const BlockContext& block, std::span<uint8_t> slot,
                     std::span<uint8_t> csb) const override {
-    if (off_ || !writes_at_once(width_, pixel_bits_)) return BlockEncoder::store(block, slot, csb);
+    if (off_ || !has_write_kernel(width_, pixel_bits_)) return BlockEncoder::store(block, slot, csb);
     uint8_t widths[kSubBlocks];
     const uint64_t marks = bit_io::big_endian(uint64_t{choose_widths(block, widths)} << (64 - kSubBlocks));
     std::memcpy(csb.data(), &marks, sizeof marks);
     const WrittenBlock written =
-        kernels().write_sub_blocks(block.pixels, block.ccd_indices, widths, kMaxWrittenBits, slot.data());
+        sub_block_kernels().write(block.pixels, view_->indices, widths, kMaxKernelWidth, slot.data());
     return {written.bits, written.clean_bytes};
   }
 
@@ -58,10 +57,10 @@ class DcpEncoder : public DcpFamilyEncoder {
   virtual uint32_t choose_width() const { return index_bits_; }
 
  private:
-  /// Widths of the sub-blocks: that of the frame, or kRawWidth. Returns the CSB bits.
+  /// Fills the widths of the sub-blocks: the frame's width, or kRawWidth. Returns the CSB bits.
   uint32_t choose_widths(const BlockContext& block, uint8_t* widths) const {
     uint32_t marks = 0;
-    const uint8_t* needed = vdcp_widths(block, active());
+    const uint8_t* needed = sub_blocks(block).widths;
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
       const bool compressed = needed[sub] <= width_;
       widths[sub] = compressed ? static_cast<uint8_t>(width_) : kRawWidth;
@@ -82,7 +81,7 @@ class AdcpEncoder final : public DcpEncoder {
   }
 };
 
-/// Serves both: the number of rCCD slots gives the width.
+/// Serves both schemes: the number of rCCD slots gives the width.
 class DcpDecoder final : public DcpFamilyDecoder {
  public:
   DcpDecoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions&)
@@ -90,7 +89,7 @@ class DcpDecoder final : public DcpFamilyDecoder {
 
   bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override {
     if (!DcpFamilyDecoder::begin_frame(tables, table_bits, csb_bits)) return false;
-    const uint32_t width = rccd_.slots == 0 ? 0 : static_cast<uint32_t>(std::bit_width(rccd_.slots) - 1);
+    const uint32_t width = rccd_.slots() == 0 ? 0 : rccd_.index_bits();
     for (uint32_t bits = 0; bits < marks_.size(); ++bits) {
       marks_[bits] = 0;
       for (uint32_t bit = 0x80; bit != 0; bit >>= 1)
@@ -114,21 +113,26 @@ class DcpDecoder final : public DcpFamilyDecoder {
 
 }  // namespace
 
-const SchemeInfo kDcpInfo = {"dcp",
-                             "DCP",
-                             "palette indices of log2(FVC size) bits per pixel, CCD of the frame before",
-                             "Gubran et al., Baseline DCP",
-                             true,
-                             false,
-                             make_encoder<DcpEncoder>,
-                             make_decoder<DcpDecoder>};
-const SchemeInfo kAdcpInfo = {"adcp",
-                              "ADCP",
-                              "DCP with the CCD cut to the size that Algorithm 1 predicts best",
-                              "Gubran et al., Adaptive DCP",
-                              true,
-                              false,
-                              make_encoder<AdcpEncoder>,
-                              make_decoder<DcpDecoder>};
+const SchemeInfo kDcpInfo = {
+    .name = "dcp",
+    .label = "DCP",
+    .family = "dcp",
+    .summary = "palette indices of log2(FVC size) bits per pixel, CCD of the frame before",
+    .source = "Gubran et al., Baseline DCP",
+    .make_encoder = make_encoder<DcpEncoder>,
+    .make_decoder = make_decoder<DcpDecoder>,
+    .keys = kDcpKeys,
+    .check = check_dcp_keys,
+    .has_dcp_structures = true};
+const SchemeInfo kAdcpInfo = {.name = "adcp",
+                              .label = "ADCP",
+                              .family = "dcp",
+                              .summary = "DCP with the CCD cut to the size that Algorithm 1 predicts best",
+                              .source = "Gubran et al., Adaptive DCP",
+                              .make_encoder = make_encoder<AdcpEncoder>,
+                              .make_decoder = make_decoder<DcpDecoder>,
+                              .keys = kDcpKeys,
+                              .check = check_dcp_keys,
+                              .has_dcp_structures = true};
 
 }  // namespace tilepress

@@ -4,17 +4,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "dcp/fvc_config.h"
 #include "tilepress/pixel_format.h"
-#include "tilepress/scheme_spec.h"
 
 namespace tilepress {
 
-/// The definition of an FVC: plain scans, every rule visible.
+/// The definition of an FVC, by plain scans.
 class Fvc {
  public:
   Fvc(const FvcConfig& config, const FormatTraits& format);
 
-  /// `count` pixels of the frame in a row.
+  /// Takes `count` pixels of the frame in a row.
   void see_all(const uint32_t* pixels, uint32_t count) {
     while (until_sample_ <= count) {
       pixels += until_sample_;
@@ -32,9 +32,9 @@ class Fvc {
     }
     until_sample_ -= count;
   }
-  /// Empties it, as at the start of each frame it collects in.
+  /// Empties the FVC, at the start of each frame that it collects.
   void reset();
-  /// Takes over the state of a faster collector: a slot (count 0 = empty), and the pixels that entered.
+  /// Takes the state of a faster collector: a slot (count 0 = empty), and the pixels that entered.
   void set_slot(uint32_t slot, uint32_t color, uint32_t count) {
     colors_[slot] = color;
     counts_[slot] = count;
@@ -46,9 +46,9 @@ class Fvc {
   bool valid(uint32_t slot) const { return counts_[slot] != 0; }
   uint32_t color(uint32_t slot) const { return colors_[slot]; }
   uint32_t count(uint32_t slot) const { return counts_[slot]; }
-  /// Pixels that entered since reset().
+  /// Returns the pixels that entered since reset().
   uint64_t samples() const { return samples_; }
-  /// Sum of the counts of the colours held.
+  /// Returns the sum of all counts.
   uint64_t held() const;
   double coverage() const { return samples_ == 0 ? 0.0 : static_cast<double>(held()) / samples_; }
 

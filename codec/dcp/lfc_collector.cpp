@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "cpu/bit_count.h"
 #include "dcp/fvc.h"
-#include "simd/bit_count.h"
-#include "simd/kernels.h"
+#include "pixels/pixel_kernels.h"
 
 namespace tilepress {
 namespace {
@@ -17,7 +17,7 @@ constexpr uint32_t kFewRuns = 24;  ///< where there are so few, slots are counte
 
 LfcCollector::LfcCollector(uint32_t entries)
     : entries_(entries),
-      by_slots_(kernels().byte_permutes && entries <= SlotTable::kSlots),
+      by_slots_(slot_kernels().byte_permutes && entries <= SlotTable::kSlots),
       slot_places_(entries, kNoSlot),
       slot_colors_(entries),
       slot_told_(entries) {
@@ -143,7 +143,7 @@ void LfcCollector::fill_slot(uint32_t color, uint32_t count) {
 
 /// The smallest counts of the slots but the tail.
 Smallest LfcCollector::find_smallest() const {
-  if (by_slots_) return kernels().find_smallest(counts_.data(), copy_stride_);
+  if (by_slots_) return probe_kernels().find_smallest(counts_.data(), copy_stride_);
   Smallest found = {kNoSlot, kNoCount, kNoCount};
   for (uint32_t slot = 0; slot < entries_; ++slot) {
     if (slot == tail_slot_) continue;
@@ -192,8 +192,8 @@ void LfcCollector::see_run(uint32_t color, uint32_t count) {
 bool LfcCollector::take_few_misses(const uint32_t* pixels, uint64_t misses) {
   const uint32_t count = bit_count(misses);
   if (tail_count_ + count >= floor_) return false;
-  const uint32_t color = pixels[kLanes - 1 - static_cast<uint32_t>(std::countl_zero(misses))];
-  const uint64_t others = misses & ~kernels().places_of(pixels, color);
+  const uint32_t color = pixels[kBlockPixels - 1 - static_cast<uint32_t>(std::countl_zero(misses))];
+  const uint64_t others = misses & ~pixel_kernels().places_of(pixels, color);
   // The last of another colour; those behind it are a run.
   const uint32_t run = others == 0 ? count : bit_count(misses & ~(~uint64_t{0} >> std::countl_zero(others)));
   tail_count_ = others == 0 && color == tail_color_ ? tail_count_ + count : run;
@@ -203,14 +203,14 @@ bool LfcCollector::take_few_misses(const uint32_t* pixels, uint64_t misses) {
 
 /// Of a number of misses, bit i of `alike` set where number i is of the colour of the one before it, or
 /// number 0 of that of the tail: the number of the first at which the tail is hit and has as many as the
-/// floor; kLanes if there is none.
+/// floor; kBlockPixels if there is none.
 uint32_t LfcCollector::first_to_settle(uint64_t alike) const {
   const auto on_tail = static_cast<uint32_t>(std::countr_one(alike));
   if (on_tail != 0 && tail_count_ + on_tail >= floor_)
     return floor_ > tail_count_ ? floor_ - tail_count_ - 1 : 0;
   // A colour takes the tail with a count of 1, and each that is alike adds 1.
   const uint32_t wanted = std::max(floor_, 2u) - 1;
-  if (wanted >= kLanes) return kLanes;
+  if (wanted >= kBlockPixels) return kBlockPixels;
   uint64_t ends = alike & (alike + 1);  // without those on the tail
   for (uint32_t have = 1; have < wanted && ends != 0;) {
     const uint32_t more = std::min(have, wanted - have);
@@ -227,7 +227,7 @@ bool LfcCollector::see_block(const FewColors& few) {
     if (places[n] == outside()) return false;
   }
   for (uint32_t n = 0; n < few.count; ++n) counts_[places[n]] += bit_count(few.places[n]);
-  samples_ += kLanes;
+  samples_ += kBlockPixels;
   return true;
 }
 
@@ -245,14 +245,14 @@ void LfcCollector::count_hits(const Place* places, uint32_t from, uint32_t to) {
 /// Counts pixels `from` to the last of a block, in the quickest way.
 template <class Place>
 void LfcCollector::count_rest(const Place* places, FoundSlots found, uint32_t from) {
-  if (from == kLanes) return;
+  if (from == kBlockPixels) return;
   const uint64_t rest = ~uint64_t{0} << from;
   uint64_t hits = found.known & rest;
   if (hits == 0) return;
   const bool few_runs = bit_count(found.begins & rest) <= kFewRuns;
-  if (!few_runs && bit_count(hits) > kFewHits) return count_hits(places, from, kLanes);
+  if (!few_runs && bit_count(hits) > kFewHits) return count_hits(places, from, kBlockPixels);
   if constexpr (sizeof(Place) == 1)
-    if (few_runs) hits = kernels().count_slots(places, hits, counts_.data());
+    if (few_runs) hits = slot_kernels().count(places, hits, counts_.data());
   for (; hits != 0; hits &= hits - 1) {
     const auto lane = static_cast<uint32_t>(std::countr_zero(hits));
     ++counts_[places[lane] + (lane & 3) * copy_stride_];
@@ -270,19 +270,19 @@ bool LfcCollector::take_misses(const uint32_t* pixels, uint64_t misses, uint64_t
     fill_slot(pixels[lane], 1);
     return true;
   }
-  std::array<uint32_t, kLanes + 16> packed;
+  std::array<uint32_t, kBlockPixels + 16> packed;
   const bool all = misses == ~uint64_t{0};  // then there is nothing to pack
   const uint32_t* colors = all ? pixels : packed.data();
   uint64_t alike = all ? ~begins | (pixels[0] == tail_color_ ? 1 : 0)
-                       : kernels().compact(pixels, misses, tail_color_, packed.data());
+                       : probe_kernels().compact(pixels, misses, tail_color_, packed.data());
   while (misses != 0) {
     const uint32_t settles = first_to_settle(alike), left = bit_count(misses);
     const uint32_t count = std::min(settles + 1, left);
     if (listener_ != nullptr) listener_->see_pixels(colors, count, alike);
-    const auto run = static_cast<uint32_t>(std::countl_one(alike << (kLanes - count)));
+    const auto run = static_cast<uint32_t>(std::countl_one(alike << (kBlockPixels - count)));
     tail_count_ = run == count ? tail_count_ + count : run + 1;
     tail_color_ = colors[count - 1];
-    if (settles == kLanes) return false;
+    if (settles == kBlockPixels) return false;
     for (uint32_t i = 0; i < settles; ++i) misses &= misses - 1;
     const auto lane = static_cast<uint32_t>(std::countr_zero(misses));
     misses &= misses - 1;
@@ -297,18 +297,18 @@ bool LfcCollector::take_misses(const uint32_t* pixels, uint64_t misses, uint64_t
 /// `places` and `found` are those of the block's pixels; find() finds them anew.
 template <class Place, class Find>
 void LfcCollector::take_block(const uint32_t* pixels, Place* places, FoundSlots found, const Find& find) {
-  samples_ += kLanes;
+  samples_ += kBlockPixels;
   if (found.known == 0 && found.begins == ~uint64_t{0} && full() && pixels[0] != tail_color_) {
     // Each takes the tail from the one before it.
-    if (listener_ != nullptr) listener_->see_pixels(pixels, kLanes, 0);
-    tail_color_ = pixels[kLanes - 1];
+    if (listener_ != nullptr) listener_->see_pixels(pixels, kBlockPixels, 0);
+    tail_color_ = pixels[kBlockPixels - 1];
     tail_count_ = 1;
     return;
   }
   if (found.known == ~uint64_t{0} ||
       (full() && listener_ == nullptr && take_few_misses(pixels, ~found.known)))
     return count_rest(places, found, 0);
-  for (uint32_t from = 0; from < kLanes; found = find()) {  // pixels before are counted
+  for (uint32_t from = 0; from < kBlockPixels; found = find()) {  // pixels before are counted
     const auto count_to = [&](uint32_t lane) {
       count_hits(places, from, lane);
       from = lane;
@@ -320,18 +320,18 @@ void LfcCollector::take_block(const uint32_t* pixels, Place* places, FoundSlots 
 }
 
 void LfcCollector::see_found(const uint32_t* pixels, FoundSlots found, uint8_t* slots) {
-  take_block(pixels, slots, found, [&] { return kernels().find_slots(pixels, slots_, slots); });
+  take_block(pixels, slots, found, [&] { return slot_kernels().find(pixels, slots_, slots); });
 }
 
 void LfcCollector::see_block(const uint32_t* pixels) {
   if (by_slots_) {
-    uint8_t slots[kLanes];
-    return see_found(pixels, kernels().find_slots(pixels, slots_, slots), slots);
+    uint8_t slots[kBlockPixels];
+    return see_found(pixels, slot_kernels().find(pixels, slots_, slots), slots);
   }
-  uint32_t places[kLanes];
+  uint32_t places[kBlockPixels];
   const auto find = [&]() -> FoundSlots {
-    const uint64_t known = kernels().members(pixels, table_, crowded_colors_.data(), crowded_, places);
-    return {known, known == 0 ? kernels().run_begins(pixels) : ~uint64_t{0}};
+    const uint64_t known = probe_kernels().members(pixels, table_, crowded_colors_.data(), crowded_, places);
+    return {known, known == 0 ? pixel_kernels().run_begins(pixels) : ~uint64_t{0}};
   };
   take_block(pixels, places, find(), find);
 }

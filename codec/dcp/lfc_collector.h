@@ -15,8 +15,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "simd/kernels.h"
-#include "simd/probe_table.h"
+#include "dcp/probe_kernels.h"
+#include "dcp/slot_kernels.h"
 
 namespace tilepress {
 
@@ -47,7 +47,7 @@ class LfcCollector {
   void tell_held();
   /// A whole block, 64 pixels in traversal order.
   void see_block(const uint32_t* pixels);
-  /// The same, where Kernels::find_slots() found its `slots` among members(); they are of no meaning then.
+  /// The same, where SlotKernels::find() found its `slots` among members(); they are of no meaning then.
   void see_found(const uint32_t* pixels, FoundSlots found, uint8_t* slots);
   /// The same for a block of few colours. False, and nothing happened, if not all of them are held.
   bool see_block(const FewColors& few);

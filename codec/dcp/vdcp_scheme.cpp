@@ -5,7 +5,7 @@
 //                            raw         4 × pixel bits
 //   tables    N rCCD slots
 #include "dcp/dcp_family.h"
-#include "dcp/vdcp.h"
+#include "dcp/sub_blocks.h"
 #include "scheme_factory.h"
 
 namespace tilepress {
@@ -22,26 +22,22 @@ class VdcpEncoder final : public DcpFamilyEncoder {
       : DcpFamilyEncoder(spec, format) {}
 
   uint32_t csb_bits() const override { return off_ ? 0 : kSubBlocks * csb_width(index_bits_); }
-  uint64_t palette_bits() const override {
-    return active() ? uint64_t{ccd_->entries} * (pixel_bits_ + 1) : 0;
-  }
-  void write_tables(BitWriter& out) const override {
-    if (active()) Rccd::write(*ccd_, ccd_->entries, pixel_bits_, out);
-  }
-  uint32_t measure(const BlockContext& block) const override {
-    return active() ? vdcp_measure(block, pixel_bits_) : raw_block_bits();
+  uint32_t measure(const BlockContext&) const override {
+    return active() ? payload_bits(view_->widths, pixel_bits_) : raw_block_bits();
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
     if (off_) return write_raw_block(block.pixels, pixel_bits_, payload);
-    const uint32_t width = csb_width(index_bits_);
-    vdcp_encode(block, active(), index_bits_, pixel_bits_, width, payload, csb);
+    const SubBlocks sub_blocks = this->sub_blocks(block);
+    write_widths(sub_blocks.widths, csb_width(index_bits_), csb);
+    write_payload(sub_blocks, index_bits_, pixel_bits_, payload);
   }
   StoredBlock store(const BlockContext& block, std::span<uint8_t> slot,
                     std::span<uint8_t> csb) const override {
-    if (off_ || !writes_at_once(index_bits_, pixel_bits_)) return BlockEncoder::store(block, slot, csb);
+    if (off_ || !has_write_kernel(index_bits_, pixel_bits_)) return BlockEncoder::store(block, slot, csb);
     const uint32_t width = csb_width(index_bits_), half_bits = kSubBlocks / 2 * width;
-    const WrittenBlock written = kernels().write_sub_blocks(block.pixels, block.ccd_indices,
-                                                            vdcp_widths(block, active()), width, slot.data());
+    const SubBlocks from = sub_blocks(block);
+    const WrittenBlock written =
+        sub_block_kernels().write(from.pixels, from.indices, from.widths, width, slot.data());
     const uint64_t marks = (written.marks[0] << half_bits | written.marks[1]) << (64 - 2 * half_bits);
     const uint64_t bytes = bit_io::big_endian(marks);
     std::memcpy(csb.data(), &bytes, sizeof bytes);
@@ -71,13 +67,16 @@ class VdcpDecoder final : public DcpFamilyDecoder {
 
 }  // namespace
 
-const SchemeInfo kVdcpInfo = {"vdcp",
-                              "VDCP",
-                              "palette indices of a width chosen per sub-block, recorded in the CSB",
-                              "Gubran et al., Variable DCP",
-                              true,
-                              false,
-                              make_encoder<VdcpEncoder>,
-                              make_decoder<VdcpDecoder>};
+const SchemeInfo kVdcpInfo = {
+    .name = "vdcp",
+    .label = "VDCP",
+    .family = "dcp",
+    .summary = "palette indices of a width chosen per sub-block, recorded in the CSB",
+    .source = "Gubran et al., Variable DCP",
+    .make_encoder = make_encoder<VdcpEncoder>,
+    .make_decoder = make_decoder<VdcpDecoder>,
+    .keys = kDcpKeys,
+    .check = check_dcp_keys,
+    .has_dcp_structures = true};
 
 }  // namespace tilepress

@@ -1,12 +1,13 @@
-// HDCP: per block the one of VDCP and RAS that takes fewer bursts (paper §Hybrid Schemes; spec §5).
+// HDCP: codes each block with VDCP or RAS, whichever takes fewer bursts (paper §Hybrid Schemes; spec §5).
 //
-//   CSB       16 × 5 bits. Block coded by VDCP: per sub-block its width 0 … M, or 31 = raw sub-block.
-//             Block coded by RAS: 16 + class in every sub-block, so that each tells how to read the block.
-//   payload   of the scheme chosen
+//   CSB       16 × 5 bits. VDCP block: per sub-block its width 0 … M, or 31 = raw sub-block.
+//             RAS block: 16 + class in every sub-block, so that each sub-block says how to read the block.
+//   payload   as VDCP or RAS
 //   tables    N rCCD slots
-// Where the coverage threshold switches DCP off, the frame is a frame of RAS: 2 CSB bits a block, no tables.
+// If the coverage threshold switches DCP off, the frame is a RAS frame: 2 CSB bits per block, no tables.
 #include "dcp/dcp_family.h"
-#include "dcp/vdcp.h"
+#include "dcp/sub_blocks.h"
+#include "ras/ras_bits.h"
 #include "ras/ras_block.h"
 #include "scheme_factory.h"
 
@@ -16,7 +17,7 @@ namespace {
 constexpr uint32_t kSubBlockCsbBits = 5;
 constexpr uint32_t kRawMark = 31;
 constexpr uint32_t kRasMark = 16;
-/// Times a mark: that mark for each sub-block of half a block.
+/// Multiplied by a mark: the mark for each sub-block of half a block.
 constexpr uint64_t kEachOfHalf = 0x0842108421;
 
 class HdcpEncoder final : public DcpFamilyEncoder {
@@ -26,19 +27,19 @@ class HdcpEncoder final : public DcpFamilyEncoder {
         format_(format),
         classes_{RasSizes::kThree, kBlockPixels * format.pixel_bits, model.burst_bits} {}
 
-  SchemeNeeds needs() const override { return {.ccd = true, .ras = true, .raster_to_encode = true}; }
+  SchemeNeeds needs() const override { return {.raster_to_encode = true}; }
+  void subscribe(SharedAnalyses& analyses) override {
+    DcpFamilyEncoder::subscribe(analyses);
+    ras_bits_ = &analyses.get<RasBits>().subscribe(false);
+  }
   uint32_t csb_bits() const override { return off_ ? classes_.csb_bits() : kSubBlocks * kSubBlockCsbBits; }
-  uint64_t palette_bits() const override {
-    return active() ? uint64_t{ccd_->entries} * (pixel_bits_ + 1) : 0;
-  }
-  void write_tables(BitWriter& out) const override {
-    if (active()) Rccd::write(*ccd_, ccd_->entries, pixel_bits_, out);
-  }
-  uint32_t measure(const BlockContext& block) const override { return choose(block).bits; }
+  uint32_t measure(const BlockContext&) const override { return choose().bits; }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
-    const uint32_t cls = classes_.class_of(block.ras_bits);
-    if (choose(block).vdcp)
-      return vdcp_encode(block, active(), index_bits_, pixel_bits_, kSubBlockCsbBits, payload, csb);
+    const uint32_t cls = classes_.class_of(*ras_bits_);
+    if (choose().vdcp) {
+      write_widths(sub_blocks(block).widths, kSubBlockCsbBits, csb);
+      return write_payload(sub_blocks(block), index_bits_, pixel_bits_, payload);
+    }
     if (off_)
       csb.put(cls, classes_.csb_bits());
     else
@@ -46,10 +47,8 @@ class HdcpEncoder final : public DcpFamilyEncoder {
         csb.put((kRasMark + cls) * kEachOfHalf, kSubBlocks / 2 * kSubBlockCsbBits);
     ras_block_write(block, cls, classes_, format_, false, payload);
   }
-  void account(const BlockContext& block, uint32_t, SchemeStatistics& statistics) const override {
-    const bool vdcp = choose(block).vdcp;
-    statistics.vdcp_blocks += vdcp;
-    statistics.ras_blocks += !vdcp;
+  void account(const BlockContext&, uint32_t, SchemeStatistics& statistics) const override {
+    ++statistics.own[choose().vdcp ? 0 : 1];
   }
 
  private:
@@ -57,10 +56,10 @@ class HdcpEncoder final : public DcpFamilyEncoder {
     bool vdcp;
     uint32_t bits;
   };
-  Choice choose(const BlockContext& block) const {
-    const uint32_t ras = classes_.bits_of(classes_.class_of(block.ras_bits));
+  Choice choose() const {
+    const uint32_t ras = classes_.bits_of(classes_.class_of(*ras_bits_));
     if (off_) return {false, ras};
-    const uint32_t vdcp = active() ? vdcp_measure(block, pixel_bits_) : raw_block_bits();
+    const uint32_t vdcp = active() ? payload_bits(view_->widths, pixel_bits_) : raw_block_bits();
     if (bursts(vdcp) <= bursts(ras)) return {true, vdcp};
     return {false, ras};
   }
@@ -68,6 +67,7 @@ class HdcpEncoder final : public DcpFamilyEncoder {
 
   const FormatTraits format_;
   const RasClasses classes_;
+  const uint32_t* ras_bits_ = nullptr;  ///< of the block at hand
 };
 
 class HdcpDecoder final : public DcpFamilyDecoder {
@@ -109,13 +109,18 @@ class HdcpDecoder final : public DcpFamilyDecoder {
 
 }  // namespace
 
-const SchemeInfo kHdcpInfo = {"hdcp",
-                              "HDCP",
-                              "per block the one of VDCP and RAS with fewer bursts",
-                              "Gubran et al., Hybrid Schemes",
-                              true,
-                              false,
-                              make_encoder<HdcpEncoder>,
-                              make_decoder<HdcpDecoder>};
+constexpr const char* kColumns[] = {"vdcp_blocks", "ras_blocks"};
+
+const SchemeInfo kHdcpInfo = {.name = "hdcp",
+                              .label = "HDCP",
+                              .family = "hybrid",
+                              .summary = "per block the one of VDCP and RAS with fewer bursts",
+                              .source = "Gubran et al., Hybrid Schemes",
+                              .make_encoder = make_encoder<HdcpEncoder>,
+                              .make_decoder = make_decoder<HdcpDecoder>,
+                              .keys = kDcpKeys,
+                              .check = check_dcp_keys,
+                              .columns = kColumns,
+                              .has_dcp_structures = true};
 
 }  // namespace tilepress

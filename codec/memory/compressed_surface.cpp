@@ -1,4 +1,4 @@
-// Compressed surface: do its parts fit each other?
+// Compressed surface: checks that its parts fit each other.
 #include "tilepress/compressed_surface.h"
 
 #include <bit>
@@ -7,11 +7,8 @@
 
 namespace tilepress {
 
-bool CompressedSurface::possible(std::string& error) const {
-  const auto fail = [&](const std::string& reason) {
-    error = reason;
-    return false;
-  };
+Result<void> CompressedSurface::possible() const {
+  const auto fail = [](std::string text) { return Error{ErrorKind::kBadBits, std::move(text)}; };
   if (width < 1 || width > kMaxSurfaceSide || height < 1 || height > kMaxSurfaceSide)
     return fail("a surface of " + std::to_string(width) + "x" + std::to_string(height) + " cannot be");
   if (static_cast<size_t>(format) >= std::size(kFormatTraits) || !traits(format).modelled)
@@ -21,17 +18,15 @@ bool CompressedSurface::possible(std::string& error) const {
   if (tile_side < kBlockSide || tile_side > 4096 || tile_side % kBlockSide != 0)
     return fail("render tiles of " + std::to_string(tile_side) + " pixels cannot be");
   if (csb_bits > 256) return fail("CSB entries of " + std::to_string(csb_bits) + " bits cannot be");
-  return true;
+  return {};
 }
 
-bool CompressedSurface::consistent(std::string& error) const {
-  if (!possible(error)) return false;
+Result<void> CompressedSurface::consistent() const {
+  if (const auto checked = possible(); !checked) return checked;
   if (payload.size() != blocks() * slot_bytes() || csb.size() != (csb_plane_bits() + 7) / 8 ||
-      tables.size() != table_bits / 8 + (table_bits % 8 != 0)) {
-    error = "payload, CSB or tables are not of the surface's size";
-    return false;
-  }
-  return true;
+      tables.size() != table_bits / 8 + (table_bits % 8 != 0))
+    return Error{ErrorKind::kBadBits, "payload, CSB or tables are not of the surface's size"};
+  return {};
 }
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// CSB cache: the small on-chip memory that holds lines of the CSB (paper §Reading a Compressed Framebuffer
+// CSB cache: a small on-chip memory for lines of the CSB (paper §Reading a Compressed Framebuffer
 // Surface).
 #pragma once
 
@@ -8,12 +8,12 @@
 
 namespace tilepress {
 
-/// Fully associative, the least recently used line goes first. Holds line numbers only.
+/// Fully associative; the least recently used line leaves first. Holds line numbers only.
 class CsbCache {
  public:
   explicit CsbCache(uint32_t lines) : lines_(lines) {}
 
-  /// True if the line was there; else it is from now on, unless the cache has no lines at all.
+  /// Returns true if the cache holds the line. Else inserts it, unless the cache has no lines.
   bool touch(uint64_t line) {
     const auto at = std::find(held_.begin(), held_.end(), line);
     const bool hit = at != held_.end();

@@ -58,7 +58,7 @@ bool SurfaceReader::State::load(uint64_t number) {
   const uint64_t csb_end = (number + 1) * surface->csb_bits;
   BitReader csb(surface->csb, csb_end);
   csb.skip(csb_end - surface->csb_bits);
-  // Slots lie too far apart for the processor to guess the next.
+  // Slots lie too far apart for the hardware prefetcher.
   if (number + 2 < surface->blocks())
     __builtin_prefetch(&surface->payload[(number + 2) * surface->slot_bytes()]);
   BitReader payload(
@@ -77,35 +77,29 @@ SurfaceReader::~SurfaceReader() = default;
 SurfaceReader::SurfaceReader(SurfaceReader&&) noexcept = default;
 SurfaceReader& SurfaceReader::operator=(SurfaceReader&&) noexcept = default;
 
-bool SurfaceReader::open(const CompressedSurface& surface, const ReadOptions& options, std::string& error) {
+Result<void> SurfaceReader::open(const CompressedSurface& surface, const ReadOptions& options) {
   State& state = *state_;
   state = State{};
-  if (!surface.consistent(error)) return false;
+  if (const auto checked = surface.consistent(); !checked) return checked;
   const SchemeInfo* info = find_scheme(surface.scheme.name);
-  if (info == nullptr) {
-    error = "unknown scheme '" + surface.scheme.name + "'";
-    return false;
-  }
-  if (info->needs_frame_before) {
-    error = "a frame of scheme " + surface.scheme.name + " cannot be read without the frame before";
-    return false;
-  }
+  if (info == nullptr) return Error{ErrorKind::kBadBits, "unknown scheme '" + surface.scheme.name + "'"};
+  if (info->needs_frame_before)
+    return Error{ErrorKind::kBadBits,
+                 "a frame of scheme " + surface.scheme.name + " cannot be read without the frame before"};
   ModelOptions model;
   model.tile_side = surface.tile_side;
   model.burst_bits = surface.burst_bits;
   auto decoder = info->make_decoder(surface.scheme, traits(surface.format), model);
   BitReader tables(surface.tables, surface.table_bits);
-  if (!decoder->begin_frame(tables, surface.table_bits, surface.csb_bits)) {
-    error = "tables that scheme " + surface.scheme.text + " does not write";
-    return false;
-  }
+  if (!decoder->begin_frame(tables, surface.table_bits, surface.csb_bits))
+    return Error{ErrorKind::kBadBits, "tables that scheme " + surface.scheme.text + " does not write"};
   state.surface = &surface;
   state.options = options;
   state.options.csb_line_bursts = std::max(1u, options.csb_line_bursts);
   state.decoder = std::move(decoder);
   state.cache = CsbCache(options.csb_lines);
   state.traffic.table_bursts = (surface.table_bits + surface.burst_bits - 1) / surface.burst_bits;
-  return true;
+  return {};
 }
 
 bool SurfaceReader::read_block(uint32_t bx, uint32_t by, Block& out) {

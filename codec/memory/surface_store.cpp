@@ -1,4 +1,4 @@
-// Surface store: slots are written in place; CSB bits are merged, as blocks share bytes.
+// Surface store: writes slots in place, and merges CSB bits, since blocks share bytes.
 #include "memory/surface_store.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace {
 
 /// ORs `bits` bits of `from` into `plane` at bit `position`.
 void merge_bits(std::span<const uint8_t> from, uint32_t bits, std::span<uint8_t> plane, uint64_t position) {
-  if (bits <= kMaxBitsPerCall && position / 8 + 8 <= plane.size()) {  // at once, if it ends in the word
+  if (bits <= kMaxBitsPerCall && position / 8 + 8 <= plane.size()) {  // one word holds all bits
     uint64_t value, word;
     std::memcpy(&value, from.data(), 8);
-    value = bit_io::big_endian(value) >> position % 8;  // what follows the bits is zero
+    value = bit_io::big_endian(value) >> position % 8;  // zeros follow the bits
     std::memcpy(&word, &plane[position / 8], 8);
     word |= bit_io::big_endian(value);
     std::memcpy(&plane[position / 8], &word, 8);
@@ -52,7 +52,7 @@ void repeat_ends(const uint8_t* from, size_t bytes, uint8_t* to, size_t times) {
   }
 }
 
-/// A few bytes so many times, one after the other, without a call.
+/// Copies a few bytes `times` times, without a call per copy.
 void repeat_bytes(const uint8_t* from, size_t bytes, uint8_t* to, size_t times) {
   if (bytes >= 8 && bytes <= 16) return repeat_ends<uint64_t>(from, bytes, to, times);
   if (bytes >= 4 && bytes < 8) return repeat_ends<uint32_t>(from, bytes, to, times);
@@ -75,7 +75,7 @@ void SurfaceStore::begin_frame(const SchemeSpec& spec, const ModelOptions& optio
   blocks_ = out.blocks();
   blocks_x_ = out.blocks_x();
   slot_bytes_ = out.slot_bytes();
-  // Slots are kept from the frame before: put() empties what a block used then and does not use now.
+  // Slots keep the frame before: put() clears the bytes that a block used then and does not use now.
   if (out.payload.size() != out.blocks() * out.slot_bytes() || out.block_bits.size() != out.blocks()) {
     out.payload.assign(out.blocks() * out.slot_bytes(), 0);
     out.block_bits.assign(out.blocks(), 0);
@@ -96,7 +96,7 @@ uint32_t SurfaceStore::put(const BlockEncoder& encoder, const BlockContext& bloc
   last_.number = uint64_t{block.by} * blocks_x_ + block.bx;
   uint8_t* slot = payload_ + last_.number * slot_bytes_;
   if (last_.number + 1 < blocks_) {
-    // Most often the next: asked for as far as it was written in the frame before.
+    // Prefetches the next slot, as far as the frame before wrote it.
     const uint8_t* next = slot + slot_bytes_;
     __builtin_prefetch(next, 1);
     const size_t bytes = block_bits_[last_.number + 1] / 8;
@@ -122,7 +122,7 @@ void SurfaceStore::put_again(uint32_t place, uint32_t bx, uint32_t bx_end, uint3
   const size_t slot_bytes = slot_bytes_;
   for (uint16_t* const end = bits + (bx_end - bx); bits != end; ++bits, slot += slot_bytes) {
     const size_t most_bytes = (std::max(payload_bits, *bits) + 7u) / 8;
-    // Whole lines, of which slots are made: what lies behind a block's payload is zero in either slot.
+    // Copies whole lines: zeros follow the payload in either slot.
     for (size_t at = 0; at < most_bytes; at += kCacheLineBytes)
       std::memcpy(slot + at, from + at, kCacheLineBytes);
     *bits = payload_bits;
@@ -130,9 +130,9 @@ void SurfaceStore::put_again(uint32_t place, uint32_t bx, uint32_t bx_end, uint3
   put_csb(kept, first, bx_end - bx);
 }
 
-/// Its CSB bits for `count` blocks from number `first` on.
+/// Writes the CSB bits of `count` blocks from number `first` on.
 void SurfaceStore::put_csb(const Put& put, uint64_t first, uint32_t count) {
-  if (csb_bits_ == 0) return;  // then there is no plane
+  if (csb_bits_ == 0) return;  // no plane
   if (const size_t bytes = csb_bits_ / 8; csb_bits_ % 8 == 0)
     return repeat_bytes(put.csb.data(), bytes, csb_.data() + first * bytes, count);
   for (uint64_t number = first; number < first + count; ++number)

@@ -37,14 +37,10 @@ std::string printable(std::string text) {
 
 }  // namespace
 
-bool read_palette_file(const std::string& path, std::vector<uint32_t>& colors, std::string& error) {
-  colors.clear();
+Result<std::vector<uint32_t>> read_palette_file(const std::string& path) {
+  std::vector<uint32_t> colors;
   std::error_code status;
-  const auto fail = [&](std::string reason) {
-    colors.clear();
-    error = std::move(reason);
-    return false;
-  };
+  const auto fail = [](std::string text) { return Error{ErrorKind::kFile, std::move(text)}; };
   if (!std::filesystem::is_regular_file(path, status)) return fail("no such file");
   if (std::filesystem::file_size(path, status) > kLargestFile || status)
     return fail("no palette: larger than 64 KiB");
@@ -63,7 +59,7 @@ bool read_palette_file(const std::string& path, std::vector<uint32_t>& colors, s
   }
   if (file.bad()) return fail("cannot be read");
   if (colors.empty()) return fail("holds no colours");
-  return true;
+  return colors;
 }
 
 }  // namespace tilepress

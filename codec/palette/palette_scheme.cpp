@@ -1,30 +1,34 @@
-// Palette: indices into a dictionary that was fixed beforehand (Danielson 1998, as the paper describes it:
-// the operating system or the program names the colours).
+// Palette: indices into a fixed dictionary (Danielson 1998, as the paper describes it: the operating system
+// or the program chooses the colours).
 //
 //   CSB       16 × 1 bit, in sub-block order: 1 = compressed, 0 = raw
 //   payload   per sub-block: compressed  4 × M bits of palette index, M = log2(slots)
 //                            raw         4 × pixel bits
 //   tables    as many slots as the palette has: a valid bit and a colour, (pixel bits + 1) bits each
 //
-// Modelling decisions. All but the origin of the colours is as in DCP, so that the two differ in that alone.
-// The dictionary travels with every frame (palette_bits), as DCP's does: a reader needs it just as much.
-//   file=PATH    the colours of a file in its order, brought to the surface's format, each once; slots = the
+// Modelling decisions. Only the origin of the colours differs from DCP. The dictionary travels with every
+// frame (palette_bits), as in DCP.
+//   file=PATH    the colours of a file in its order, converted to the surface's format, without repeats;
+//   slots = the
 //                next power of two. In force from frame 0.
-//   from=first   (the default) the `entries` most frequent colours of the surface's first frame, which are
-//                known once that frame is over: frame 0 is raw, all later frames use them.
+//   from=first   (the default) the `entries` most frequent colours of the surface's first frame. Frame 0 is
+//   raw; all
+//                later frames use them.
 #include <algorithm>
 #include <bit>
 
-#include "color_table.h"
-#include "frequent_colors.h"
-#include "raw_bits.h"
+#include "dictionary/color_table.h"
+#include "dictionary/entries_key.h"
+#include "dictionary/frequent_colors.h"
+#include "palette/palette_file.h"
+#include "pixels/raw_bits.h"
 #include "scheme_factory.h"
 
 namespace tilepress {
 namespace {
 
-/// The nearest pixel of `format` to an RGBA8 word; channels the format lacks are dropped, a missing alpha is
-/// 255.
+/// Returns the nearest pixel of `format` to an RGBA8 word. Drops channels that the format lacks; RGBX8 has
+/// alpha 255.
 uint32_t to_format(uint32_t rgba, const FormatTraits& format) {
   if (format.name == traits(PixelFormat::kRgbx8).name) rgba |= 0xFF000000u;
   uint32_t word = 0;
@@ -40,10 +44,11 @@ uint32_t to_format(uint32_t rgba, const FormatTraits& format) {
 class PaletteEncoder final : public BlockEncoder {
  public:
   PaletteEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions&)
-      : entries_(spec.entries), pixel_bits_(format.pixel_bits) {
-    if (spec.palette.empty()) return;
+      : entries_(spec.number("entries")), pixel_bits_(format.pixel_bits) {
+    const std::vector<uint32_t>& palette = spec.list("file");
+    if (palette.empty()) return;
     std::vector<uint32_t> colors;
-    for (const uint32_t rgba : spec.palette) {
+    for (const uint32_t rgba : palette) {
       const uint32_t word = to_format(rgba, format);
       if (std::find(colors.begin(), colors.end(), word) == colors.end()) colors.push_back(word);
     }
@@ -56,7 +61,7 @@ class PaletteEncoder final : public BlockEncoder {
     if (from_file_) return;
     if (frame.ordinal == 0) {
       first_.clear();
-      for (const ColorCount& entry : most_frequent_colors(frame.plane, entries_))
+      for (const FrequentColor& entry : most_frequent_colors(frame.plane, entries_))
         first_.push_back(entry.color);
       table_ = ColorTable{};
     } else if (table_.slots() == 0) {
@@ -98,7 +103,7 @@ class PaletteEncoder final : public BlockEncoder {
   ColorTable table_;             ///< no slots while there is no palette
 };
 
-/// Needs nothing of the specification: the tables say it all.
+/// Uses only the tables, not the specification.
 class PaletteDecoder final : public BlockDecoder {
  public:
   PaletteDecoder(const SchemeSpec&, const FormatTraits& format, const ModelOptions&)
@@ -134,16 +139,37 @@ class PaletteDecoder final : public BlockDecoder {
 
 }  // namespace
 
+constexpr SchemeKey kKeys[] = {{.name = "file",
+                                .kind = KeyKind::kFile,
+                                .values = "a path",
+                                .standard = "",
+                                .summary = "palette from a file of #RRGGBB or #RRGGBBAA lines",
+                                .read_file = read_palette_file},
+                               {.name = "from",
+                                .kind = KeyKind::kChoice,
+                                .values = "first",
+                                .standard = "first",
+                                .summary = "palette from the surface's first frame"},
+                               kEntriesKey};
+
+Result<void> check_keys(const SchemeSpec&, std::span<const std::string_view> given) {
+  const auto has = [&](std::string_view key) {
+    return std::find(given.begin(), given.end(), key) != given.end();
+  };
+  if (has("file") && (has("from") || has("entries")))
+    return Error{ErrorKind::kBadValue, "from and entries do not go with file"};
+  return {};
+}
+
 const SchemeInfo kPaletteInfo = {
-    "palette",
-    "Palette",
-    "indices into a palette fixed by the user: a file, or the first frame's colours",
-    "Danielson 1998, as described in Gubran et al.",
-    false,
-    false,
-    make_encoder<PaletteEncoder>,
-    make_decoder<PaletteDecoder>,
-    true,
-    true};
+    .name = "palette",
+    .label = "Palette",
+    .family = "palette",
+    .summary = "indices into a palette fixed by the user: a file, or the first frame's colours",
+    .source = "Danielson 1998, as described in Gubran et al.",
+    .make_encoder = make_encoder<PaletteEncoder>,
+    .make_decoder = make_decoder<PaletteDecoder>,
+    .keys = kKeys,
+    .check = check_keys};
 
 }  // namespace tilepress

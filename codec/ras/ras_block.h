@@ -1,14 +1,14 @@
-// RAS block: a stream padded to its size class, or raw; shared by RAS and the hybrid.
+// RAS block: a stream padded to its size class, or raw pixels; RAS and HDCP share it.
 #pragma once
 
+#include "pixels/raw_bits.h"
 #include "ras/ras_classes.h"
 #include "ras/ras_stream.h"
-#include "raw_bits.h"
 #include "tilepress/scheme.h"
 
 namespace tilepress {
 
-/// Writes classes.bits_of(cls) payload bits. `cls` is the class of the block's stream.
+/// Appends classes.bits_of(cls) payload bits. `cls` is the class of the block's stream.
 inline void ras_block_write(const BlockContext& block, uint32_t cls, const RasClasses& classes,
                             const FormatTraits& format, bool ycocg, BitWriter& payload) {
   if (cls == classes.raw_class()) return write_raw_block(block.pixels, format.pixel_bits, payload);
@@ -17,7 +17,8 @@ inline void ras_block_write(const BlockContext& block, uint32_t cls, const RasCl
   payload.pad_to(end);
 }
 
-/// Reads a block of a class taken from the CSB. False: no such class, or bits that no encoder writes.
+/// Reads a block of the class that the CSB names. Returns false if there is no such class or no encoder
+/// writes the bits.
 inline bool ras_block_read(BitReader& payload, uint32_t cls, const RasClasses& classes,
                            const FormatTraits& format, bool ycocg, Block& out) {
   if (!classes.valid(cls)) return false;

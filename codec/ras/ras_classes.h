@@ -1,13 +1,15 @@
-// RAS size classes: what a stream is rounded up to, and how the CSB names it (spec §6).
+// RAS size classes: the sizes that streams are padded to, and their numbers in the CSB (spec §6).
 #pragma once
 
 #include <bit>
 #include <cstdint>
 
 #include "tilepress/block.h"
-#include "tilepress/scheme_spec.h"
 
 namespace tilepress {
+
+/// In the order of the key's choices.
+enum class RasSizes : uint8_t { kThree, kTwo, kBurst };
 
 /// Class numbers are CSB values.
 ///   three (default)  0, 1, 2 = 25, 50, 75 % of the raw block; 3 = raw       2 bits
@@ -21,11 +23,11 @@ struct RasClasses {
   uint32_t csb_bits() const {
     return sizes == RasSizes::kBurst ? static_cast<uint32_t>(std::bit_width(raw_class())) : 2;
   }
-  /// A raw block smaller than one burst still takes one.
+  /// A raw block smaller than a burst still takes one burst.
   uint32_t raw_class() const {
     return sizes == RasSizes::kBurst ? (raw_bits + burst_bits - 1) / burst_bits : 3;
   }
-  /// Class of a stream of `bits`.
+  /// Returns the class of a stream of `bits`.
   uint32_t class_of(uint32_t bits) const {
     if (sizes == RasSizes::kBurst) {
       const uint32_t bursts = (bits + burst_bits - 1) / burst_bits;
@@ -39,7 +41,7 @@ struct RasClasses {
     if (sizes == RasSizes::kBurst) return cls >= 1 && cls <= raw_class();
     return cls <= 3 && !(sizes == RasSizes::kTwo && cls == 2);
   }
-  /// Payload bits of a block of this class.
+  /// Returns the payload bits of a block of this class.
   uint32_t bits_of(uint32_t cls) const {
     if (cls == raw_class()) return raw_bits;
     return sizes == RasSizes::kBurst ? cls * burst_bits : (cls + 1) * (raw_bits / 4);

@@ -3,6 +3,7 @@
 //   CSB       class of the block, see ras_classes.h
 //   payload   the stream of ras_stream.h, zero-padded to the class; or 64 raw pixels
 //   tables    none
+#include "ras/ras_bits.h"
 #include "ras/ras_block.h"
 #include "scheme_factory.h"
 
@@ -12,8 +13,9 @@ namespace {
 struct RasCoder {
   RasCoder(const SchemeSpec& spec, const FormatTraits& traits, const ModelOptions& model)
       : format(traits),
-        ycocg(spec.ycocg),
-        classes{spec.ras_sizes, kBlockPixels * traits.pixel_bits, model.burst_bits} {}
+        ycocg(spec.number("ycocg") == 1),
+        classes{static_cast<RasSizes>(spec.number("sizes")), kBlockPixels * traits.pixel_bits,
+                model.burst_bits} {}
   const FormatTraits format;
   const bool ycocg;
   const RasClasses classes;
@@ -24,27 +26,21 @@ class RasEncoder final : public BlockEncoder {
   RasEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions& model)
       : coder_(spec, format, model) {}
 
-  SchemeNeeds needs() const override {
-    return {.ras = !coder_.ycocg, .ras_ycocg = coder_.ycocg, .raster_to_encode = true};
+  SchemeNeeds needs() const override { return {.raster_to_encode = true}; }
+  void subscribe(SharedAnalyses& analyses) override {
+    bits_ = &analyses.get<RasBits>().subscribe(coder_.ycocg);
   }
-  void begin_frame(const FrameContext&) override {}
   uint32_t csb_bits() const override { return coder_.classes.csb_bits(); }
-  uint64_t palette_bits() const override { return 0; }
-  void write_tables(BitWriter&) const override {}
-  uint32_t measure(const BlockContext& block) const override {
-    return coder_.classes.bits_of(class_of(block));
-  }
+  uint32_t measure(const BlockContext&) const override { return coder_.classes.bits_of(cls()); }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
-    const uint32_t cls = class_of(block);
-    csb.put(cls, csb_bits());
-    ras_block_write(block, cls, coder_.classes, coder_.format, coder_.ycocg, payload);
+    csb.put(cls(), csb_bits());
+    ras_block_write(block, cls(), coder_.classes, coder_.format, coder_.ycocg, payload);
   }
 
  private:
-  uint32_t class_of(const BlockContext& block) const {
-    return coder_.classes.class_of(coder_.ycocg ? block.ras_ycocg_bits : block.ras_bits);
-  }
+  uint32_t cls() const { return coder_.classes.class_of(*bits_); }  ///< of the block at hand
   const RasCoder coder_;
+  const uint32_t* bits_ = nullptr;  ///< of its stream
 };
 
 class RasDecoder final : public BlockDecoder {
@@ -66,13 +62,25 @@ class RasDecoder final : public BlockDecoder {
 
 }  // namespace
 
-const SchemeInfo kRasInfo = {"ras",
-                             "RAS",
-                             "median-edge prediction and Golomb-Rice codes, rounded up to size classes",
-                             "Rasmusson et al. 2007, with the settings of Gubran et al.",
-                             false,
-                             true,
-                             make_encoder<RasEncoder>,
-                             make_decoder<RasDecoder>};
+constexpr SchemeKey kKeys[] = {{.name = "ycocg",
+                                .kind = KeyKind::kChoice,
+                                .values = "0, 1",
+                                .standard = "0",
+                                .summary = "transform to Y, Co, Cg, A first"},
+                               {.name = "sizes",
+                                .kind = KeyKind::kChoice,
+                                .values = "3, 2, burst",
+                                .standard = "3",
+                                .summary = "size classes of a block"}};
+
+const SchemeInfo kRasInfo = {
+    .name = "ras",
+    .label = "RAS",
+    .family = "ras",
+    .summary = "median-edge prediction and Golomb-Rice codes, rounded up to size classes",
+    .source = "Rasmusson et al. 2007, with the settings of Gubran et al.",
+    .make_encoder = make_encoder<RasEncoder>,
+    .make_decoder = make_decoder<RasDecoder>,
+    .keys = kKeys};
 
 }  // namespace tilepress

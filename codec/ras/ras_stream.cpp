@@ -1,4 +1,4 @@
-// RAS stream: planes, residuals, writing and reading. The choice of k is the kernels' (simd/kernels.h).
+// RAS stream: planes, residuals, writing and reading. The kernels predict and choose k (ras_kernels.cpp).
 #include "ras/ras_stream.h"
 
 #include <algorithm>
@@ -8,8 +8,7 @@
 #include <iterator>
 #include <numeric>
 
-#include "ras/ras_samples.h"
-#include "simd/kernels.h"
+#include "ras/ras_kernels.h"
 
 namespace tilepress {
 namespace {
@@ -18,7 +17,7 @@ uint32_t group_begin(uint32_t group) {
   return group == 0 ? 1 : 0;
 }
 
-/// How the planes of a format are stored.
+/// The planes of a format in the stream.
 struct PlaneWidths {
   uint32_t count = 0;
   std::array<uint8_t, 4> first_bits{};  ///< bits of the plane's first pixel
@@ -35,12 +34,12 @@ PlaneWidths plane_widths(const FormatTraits& format, bool ycocg) {
   return planes;
 }
 
-/// Pixels are the samples themselves, byte by byte.
+/// True if the bytes of a pixel are its samples.
 bool samples_are_bytes(const FormatTraits& format, bool ycocg) {
   return !ycocg && format.channel_bits[0] == 8;  // then all four are
 }
 
-/// The four plane values of a pixel; 0 for an absent plane.
+/// Returns the four plane values of a pixel; 0 for an absent plane.
 void split_pixel(uint32_t word, const FormatTraits& format, bool ycocg, int32_t* value) {
   for (int c = 0; c < 4; ++c) value[c] = static_cast<int32_t>(channel(format, word, c));
   if (!ycocg) return;
@@ -51,8 +50,8 @@ void split_pixel(uint32_t word, const FormatTraits& format, bool ycocg, int32_t*
   value[2] = cg;
 }
 
-/// The pixel of four plane values. `stray` gets bits set if a channel is out of its range: no pixel was split
-/// into these.
+/// Returns the pixel of four plane values. Sets bits of `stray` if a channel is out of its range, so that no
+/// pixel was split into these values.
 uint32_t join_pixel(const int16_t* sample, const FormatTraits& format, bool ycocg, uint32_t& stray) {
   int32_t value[4];
   std::copy_n(sample, 4, value);
@@ -74,7 +73,7 @@ uint32_t join_pixel(const int16_t* sample, const FormatTraits& format, bool ycoc
 void load_samples(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg,
                   int16_t* samples) {
   if (samples_are_bytes(format, ycocg)) {
-    kernels().widen_bytes(top_left, stride, samples);
+    ras_kernels().widen_bytes(top_left, stride, samples);
   } else {
     for (uint32_t y = 0; y < kBlockSide; ++y)
       for (uint32_t x = 0; x < kBlockSide; ++x) {
@@ -89,14 +88,14 @@ void load_samples(const uint32_t* top_left, uint32_t stride, const FormatTraits&
 
 constexpr uint32_t kZeroPlaneBits = kSubBlocks * 3;
 
-/// Bits of a stream whose groups, of four planes, take `group_bits`. An absent plane is all zeros.
+/// Returns the bits of a stream whose groups of four planes take `group_bits`. An absent plane has zeros
+/// only.
 uint32_t stream_bits(uint32_t group_bits, const PlaneWidths& planes) {
   for (uint32_t p = 0; p < planes.count; ++p) group_bits += planes.first_bits[p];
   return group_bits - (4 - planes.count) * kZeroPlaneBits;
 }
 
-/// A BitWriter without a branch, for where eight bytes more than the bits take may be written. Begins with a
-/// byte.
+/// A BitWriter without branches. It begins at a byte and may write up to eight bytes past its bits.
 class RoomyWriter {
  public:
   static constexpr uint32_t kMostBits = 56;  ///< beside up to 7 of the byte begun
@@ -145,7 +144,7 @@ void write_planes(const int16_t* first, const RasGroups& groups, const PlaneWidt
 uint32_t ras_stream_bits(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg) {
   int16_t samples[kRasSamples];
   load_samples(top_left, stride, format, ycocg, samples);
-  return stream_bits(kernels().ras_code_bits(samples), plane_widths(format, ycocg));
+  return stream_bits(ras_kernels().code_bits(samples), plane_widths(format, ycocg));
 }
 
 uint32_t ras_uniform_bits(const FormatTraits& format, bool ycocg) {
@@ -156,7 +155,7 @@ void ras_stream_write(const Block& block, const FormatTraits& format, bool ycocg
   int16_t samples[kRasSamples];
   load_samples(block.pixels.data(), kBlockSide, format, ycocg, samples);
   RasGroups groups;
-  kernels().ras_groups(samples, groups);
+  ras_kernels().groups(samples, groups);
   const PlaneWidths planes = plane_widths(format, ycocg);
   const int16_t* first = samples + ras_sample_index(0, 0);
   const uint32_t bits = stream_bits(std::accumulate(groups.lengths, std::end(groups.lengths), 0u), planes);
@@ -171,16 +170,16 @@ void ras_stream_write(const Block& block, const FormatTraits& format, bool ycocg
 
 namespace {
 
-/// Reads the groups of a plane, of which `residuals` gets those that are not zero. False: one is beyond twice
-/// `largest`, a power of two that all are below. (What is in between makes a sample that is out of its
+/// Reads the groups of a plane and stores the residuals that are not zero. Returns false if a residual is not
+/// below twice `largest`, a power of two. (A residual between `largest` and that makes a sample out of its
 /// range.)
 bool read_residuals(BitReader& stream, uint32_t largest, int16_t* residuals) {
-  BitReader in = stream;  // in registers
+  BitReader in = stream;  // the compiler keeps a copy in registers
   uint32_t any = 0;
   for (uint32_t group = 0; group < kSubBlocks;) {
     uint64_t window = in.peek();
     const auto k = static_cast<uint32_t>(window >> 61);
-    if (k == kRasZeroGroup) {  // and the next ones, most often
+    if (k == kRasZeroGroup) {  // often several in a row
       const uint32_t count = std::min(static_cast<uint32_t>(std::countl_one(window)) / 3, kSubBlocks - group);
       in.skip(3 * count);
       group += count;
@@ -203,7 +202,7 @@ bool read_residuals(BitReader& stream, uint32_t largest, int16_t* residuals) {
       window <<= k;
     }
     in.skip(used);
-    for (; i < 4; ++i) {  // what the window does not hold
+    for (; i < 4; ++i) {  // residuals beyond the window
       const uint32_t high = in.get_unary(largest >> k);
       take(high, static_cast<uint32_t>(in.get(k)));
     }
@@ -213,9 +212,9 @@ bool read_residuals(BitReader& stream, uint32_t largest, int16_t* residuals) {
   return any < 2 * largest;
 }
 
-/// False: a sample or a channel is out of its range, so no block was encoded to these samples.
+/// Returns false if a sample or a channel is out of its range, so that no block has these samples.
 bool join_samples(const int16_t* samples, const FormatTraits& format, bool ycocg, Block& out) {
-  if (samples_are_bytes(format, ycocg)) return kernels().narrow_bytes(samples, out.pixels.data());
+  if (samples_are_bytes(format, ycocg)) return ras_kernels().narrow_bytes(samples, out.pixels.data());
   uint32_t stray = 0;
   for (uint32_t i = 0; i < kBlockPixels; ++i) {
     for (uint32_t p = 0; p < 4; ++p)
@@ -239,7 +238,7 @@ bool ras_stream_read(BitReader& in, const FormatTraits& format, bool ycocg, Bloc
   for (uint32_t p = 0; p < planes.count; ++p)
     if (!read_residuals(in, 2u << planes.first_bits[p], samples + p)) return false;
   if (in.overran()) return false;
-  kernels().ras_restore(samples);
+  ras_kernels().restore(samples);
   return join_samples(samples, format, ycocg, out);
 }
 

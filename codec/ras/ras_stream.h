@@ -15,12 +15,13 @@
 
 namespace tilepress {
 
-/// Bits of the stream of the 8×8 block at `top_left` in a plane of `stride` words a row, not rounded.
+/// Returns the bits of the stream of the 8×8 block at `top_left`, not rounded. A row of the plane has
+/// `stride` words.
 uint32_t ras_stream_bits(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg);
-/// The same for a block of one colour: first pixels and 3 bits a group.
+/// Returns the same for a block of one colour: first pixels and 3 bits per group.
 uint32_t ras_uniform_bits(const FormatTraits& format, bool ycocg);
 void ras_stream_write(const Block& block, const FormatTraits& format, bool ycocg, BitWriter& out);
-/// False: no encoder writes these bits.
+/// Returns false if no encoder writes these bits.
 bool ras_stream_read(BitReader& in, const FormatTraits& format, bool ycocg, Block& out);
 
 }  // namespace tilepress

@@ -1,10 +1,10 @@
-// RED: uniform 4×2 or 2×2 regions, decided for the whole block (paper §Surface compression techniques; spec
+// RED: uniform 4×2 or 2×2 regions, chosen for the whole block (paper §Surface compression techniques; spec
 // §5).
 //
 //   CSB       2 bits: 0 = eight 4×2 regions, 1 = sixteen 2×2 regions, 2 = raw
 //   payload   one colour per region, regions in raster order; or 64 raw pixels
 //   tables    none
-#include "raw_bits.h"
+#include "pixels/raw_bits.h"
 #include "scheme_factory.h"
 
 namespace tilepress {
@@ -33,11 +33,7 @@ class RedEncoder final : public BlockEncoder {
   RedEncoder(const SchemeSpec&, const FormatTraits& format, const ModelOptions&)
       : pixel_bits_(format.pixel_bits) {}
 
-  SchemeNeeds needs() const override { return {}; }
-  void begin_frame(const FrameContext&) override {}
   uint32_t csb_bits() const override { return 2; }
-  uint64_t palette_bits() const override { return 0; }
-  void write_tables(BitWriter&) const override {}
   uint32_t measure(const BlockContext& block) const override {
     constexpr uint32_t kColors[] = {8, 16, 64};
     return kColors[red_mode(block)] * pixel_bits_;
@@ -85,13 +81,12 @@ class RedDecoder final : public BlockDecoder {
 
 }  // namespace
 
-const SchemeInfo kRedInfo = {"red",
-                             "RED",
-                             "uniform 4x2 regions 8:1, else uniform 2x2 regions 4:1, else raw",
-                             "NVIDIA, as described in Gubran et al.",
-                             false,
-                             false,
-                             make_encoder<RedEncoder>,
-                             make_decoder<RedDecoder>};
+const SchemeInfo kRedInfo = {.name = "red",
+                             .label = "RED",
+                             .family = "red",
+                             .summary = "uniform 4x2 regions 8:1, else uniform 2x2 regions 4:1, else raw",
+                             .source = "NVIDIA, as described in Gubran et al.",
+                             .make_encoder = make_encoder<RedEncoder>,
+                             .make_decoder = make_decoder<RedDecoder>};
 
 }  // namespace tilepress

@@ -10,7 +10,7 @@
 namespace tilepress {
 namespace {
 
-/// Orders words as their color_text: red first.
+/// Returns a key that sorts words like their color_text: red first.
 uint64_t text_order(uint32_t color, const FormatTraits& format) {
   uint64_t key = 0;
   for (int c = 0; c < 4; ++c) key = key << 16 | channel(format, color, c);
@@ -43,7 +43,7 @@ std::string color_text(uint32_t color, PixelFormat format) {
   const FormatTraits& bits = traits(format);
   uint32_t value[4];
   for (int c = 0; c < 4; ++c) value[c] = channel(bits, color, c);
-  char text[40];  // what the compiler cannot rule out fits too
+  char text[40];  // also fits values that the compiler cannot rule out
   if (format == PixelFormat::kRgb10a2) {
     std::snprintf(text, sizeof text, "#%03X%03X%03X%X", value[0], value[1], value[2], value[3]);
     return text;

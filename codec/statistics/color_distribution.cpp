@@ -1,12 +1,12 @@
-// Color distribution: one pass finds the sizes of the groups, one fills them, one counts.
+// Colour distribution: a pass for the sizes of the groups, a pass that fills them, a pass that counts.
 #include "statistics/color_distribution.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "simd/kernels.h"
-#include "simd/mask_runs.h"
+#include "cpu/mask_runs.h"
+#include "pixels/pixel_kernels.h"
 
 namespace tilepress {
 namespace {
@@ -21,8 +21,8 @@ uint16_t value_of(uint32_t color) {
   return static_cast<uint16_t>(color);
 }
 
-/// Visits every pixel, from four places of a row by turns: neighbours are often alike, and to count one thing
-/// again and again is to wait for the store before.
+/// Visits every pixel, from four places of a row in turn. Neighbours are often alike, and a count that is
+/// raised twice in a row waits for its own store.
 template <typename Visit>
 void for_each_pixel(const PixelPlane& frame, const Visit& visit) {
   const uint32_t quarter = frame.width() / 4;
@@ -38,25 +38,25 @@ void for_each_pixel(const PixelPlane& frame, const Visit& visit) {
   }
 }
 
-/// visit(colour, length) for each run of equal pixels in pieces of a row.
+/// Calls visit(colour, length) for each run of equal pixels. A run ends at the latest after 64 pixels.
 template <typename Visit>
 void for_each_run(const PixelPlane& frame, uint32_t y, const Visit& visit) {
-  const Kernels& kernel = kernels();
+  const PixelKernels& kernels = pixel_kernels();
   const uint32_t* row = frame.row(y);
-  uint32_t last[kLanes];
-  for (uint32_t x = 0; x < frame.width(); x += kLanes) {
-    const uint32_t inside = std::min(kLanes, frame.width() - x);
+  uint32_t last[kBlockPixels];
+  for (uint32_t x = 0; x < frame.width(); x += kBlockPixels) {
+    const uint32_t inside = std::min(kBlockPixels, frame.width() - x);
     const uint32_t* pixels = row + x;
-    if (inside < kLanes) {
-      std::fill(std::copy_n(pixels, inside, last), last + kLanes, pixels[inside - 1]);
+    if (inside < kBlockPixels) {
+      std::fill(std::copy_n(pixels, inside, last), last + kBlockPixels, pixels[inside - 1]);
       pixels = last;
     }
-    for_each_mask_run(kernel.run_begins(pixels), inside,
+    for_each_mask_run(kernels.run_begins(pixels), inside,
                       [&](uint32_t first, uint32_t length) { visit(pixels[first], length); });
   }
 }
 
-/// Whether it pays to look for runs, from a look at some rows.
+/// Returns true if runs are common, judged by every 64th row.
 bool has_runs(const PixelPlane& frame) {
   constexpr uint32_t kEvery = 64;
   size_t runs = 0, pixels = 0;
@@ -69,19 +69,19 @@ bool has_runs(const PixelPlane& frame) {
 
 struct ColorDistribution::Tables {
   struct Entry {
-    int32_t lead;    ///< pixels of this colour the frame before has more of
+    int32_t lead;    ///< how many more pixels of this colour the frame before has
     uint32_t count;  ///< pixels of this colour in the frame
   };
-  /// Sizes of the groups, then where the next pixel of each goes.
+  /// The sizes of the groups, later the position of the next pixel of each group.
   std::vector<uint32_t> next = std::vector<uint32_t>(kGroups);
   std::vector<Entry> entries = std::vector<Entry>(kValues);  ///< of one group; all zero between groups
-  /// By count, in four copies, see for_each_pixel: how often pixel by pixel a count was raised from this one,
-  /// and how many colours had it that were counted run by run; of no meaning for 0, and for all from kExact -
-  /// 1 on together.
+  /// By count, in four copies (see for_each_pixel): how often a pixel raised a count from this one, and how
+  /// many colours counted run by run have this count. Undefined for 0; kExact - 1 stands for all larger
+  /// counts.
   std::array<std::array<uint32_t, kExact>, 4> raised{}, colors{};
   std::vector<uint16_t> large;  ///< values counted kExact - 1 times and more in one group of pixels
 
-  /// What a group counts: its values, and how many pixels each stands for.
+  /// The values of a group and the pixels of each.
   struct Span {
     const uint16_t* values;
     const uint8_t* weights;  ///< null: one pixel each
@@ -105,13 +105,13 @@ struct ColorDistribution::Tables {
   void take_profile(CountProfile& profile);
 };
 
-// Not inline: the address of what is a thread's own would be found anew at every use.
+// Not inline: else every use would compute the thread's address again.
 [[gnu::noinline]] ColorDistribution::Tables& ColorDistribution::tables_of_thread() {
   thread_local Tables tables;
   return tables;
 }
 
-/// Returns how many of the group's pixels find none of their colour in the frame before to pair with.
+/// Returns how many of the group's pixels have no pixel of their colour left in the frame before.
 uint64_t ColorDistribution::Tables::count_group(const Span& now, const Span& before) {
   Entry* table = entries.data();
   for_each(before, [table](uint16_t value, int32_t weight) { table[value].lead += weight; });
@@ -167,7 +167,7 @@ void ColorDistribution::Tables::clear_group(const Span& now, const Span& before,
 }
 
 void ColorDistribution::Tables::take_profile(CountProfile& profile) {
-  // As many colours were raised from n as have more than n pixels.
+  // The colours raised from n are the colours of more than n pixels.
   for (uint32_t count = 1; count + 1 < kExact; ++count)
     profile.add_small(count, sum(colors, count) + sum(raised, count - 1) - sum(raised, count));
   for (auto& copy : raised) copy.fill(0);
@@ -189,7 +189,7 @@ void ColorDistribution::note_sizes(std::vector<uint32_t>& next, Grouped& out) {
 
 void ColorDistribution::distribute(const PixelPlane& frame, std::vector<uint32_t>& table, Grouped& out) {
   const size_t pixels = size_t{frame.width()} * frame.height();
-  out.values.reserve(pixels);  // as much as is ever needed, not the double of what was
+  out.values.reserve(pixels);  // the most that any frame needs
   std::fill(table.begin(), table.end(), 0u);
   uint32_t* __restrict next = table.data();
   if (!has_runs(frame)) {
@@ -232,7 +232,7 @@ ColorDistribution::Change ColorDistribution::count_groups(Tables& tables, const 
                                                           const Grouped* before,
                                                           std::span<const uint32_t> held_colors,
                                                           CountProfile& profile) {
-  /// Goes through the groups of a frame.
+  /// Walks the groups of a frame.
   struct Cursor {
     const Grouped& frame;
     size_t begin = 0, large = 0;
@@ -249,7 +249,7 @@ ColorDistribution::Change ColorDistribution::count_groups(Tables& tables, const 
   for (uint32_t group = 0; group < kGroups; ++group) {
     const auto values_before = before != nullptr ? before_cursor.take(group) : Tables::Span{};
     const auto values = now_cursor.take(group);
-    if (values.size == 0) continue;  // what the frame before had here, no colour gains
+    if (values.size == 0) continue;  // no colour gains here
     change.gained += tables.count_group(values, values_before);
     while (held != held_colors.end() && group_of(*held) < group) ++held;
     for (; held != held_colors.end() && group_of(*held) == group; ++held)

@@ -1,4 +1,4 @@
-// Color distribution: exact colour counts of frames of many colours, by sorting pixels into groups.
+// Colour distribution: exact colour counts of frames of many colours, by sorting pixels into groups.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,26 @@
 
 namespace tilepress {
 
-/// Pixels are distributed to groups by the upper 16 bits of their word; the lower 16 bits then index a table
-/// of counts directly. No search and hardly a branch depends on the colours, so a frame of noise costs little
-/// more than a frame of shades. Where neighbours are often alike, a run of them counts like one pixel that
-/// weighs more. The pixels of the last frame are kept by group for the next.
+/// The upper 16 bits of a pixel word select its group; the lower 16 bits index a table of counts. Without a
+/// search, noise costs little more than shades. If neighbours are often alike, a run counts as one pixel with
+/// a weight. The object keeps the groups of the last frame.
 ///
-/// Memory: of the frame and the last one 2 bytes a pixel, or 3 bytes a run, and 64 KiB; and a megabyte that
-/// all surfaces of a thread share.
+/// Memory: 2 bytes per pixel or 3 bytes per run, and 64 KiB, for this frame and the last one; and one
+/// megabyte that all surfaces of a thread share.
 class ColorDistribution {
  public:
   struct Change {
-    uint64_t gained = 0;  ///< pixels that colours gained since the frame before; 0 without one
+    uint64_t gained = 0;  ///< pixels that colours gained since the frame before; 0 without `compare`
     uint64_t held = 0;    ///< pixels whose colour is one of `held_colors`
   };
-  /// Makes the frame before the one in `colors` the last one.
+  /// Makes the frame before the frame in `colors` the last one.
   void load_before(const ColorHistogram& colors);
-  /// Adds the counts of the colours of `frame` to `profile`, and makes it the last one. `compare` it to the
-  /// last frame, which had as many pixels. `held_colors` are distinct; their order is changed.
+  /// Adds the counts of the colours of `frame` to `profile`, and makes `frame` the last one. `compare`
+  /// requires a last frame of as many pixels. `held_colors` are distinct; their order changes.
   Change count(const PixelPlane& frame, bool compare, std::span<uint32_t> held_colors, CountProfile& profile);
 
  private:
-  /// The lower halves of the pixels or runs of a frame, group after group.
+  /// The lower halves of the words of a frame's pixels or runs, group after group.
   struct Grouped {
     std::vector<uint16_t> values;
     std::vector<uint8_t> weights;  ///< pixels of a run; empty if each value is of one pixel
@@ -40,7 +39,7 @@ class ColorDistribution {
   static constexpr uint32_t kGroups = 65536, kManyValues = 255;
   struct Tables;
   static Tables& tables_of_thread();
-  /// From the sizes of the groups in `ends` to their beginnings, noted in `out`.
+  /// Notes the sizes of the groups in `out`, and replaces them in `ends` by the groups' beginnings.
   static void note_sizes(std::vector<uint32_t>& ends, Grouped& out);
   static void distribute(const PixelPlane& frame, std::vector<uint32_t>& ends, Grouped& out);
   static Change count_groups(Tables& tables, const Grouped& now, const Grouped* before,

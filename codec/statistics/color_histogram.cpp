@@ -1,4 +1,4 @@
-// Colour histogram: open addressing; and the profile of its counts.
+// Colour histogram: open addressing. Count profile: entropy and coverage.
 #include "statistics/color_histogram.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "simd/kernels.h"
+#include "statistics/histogram_kernels.h"
 
 namespace tilepress {
 
@@ -63,7 +63,7 @@ bool ColorHistogram::add(uint32_t color, uint32_t count) {
 }
 
 bool ColorHistogram::add_runs(const uint32_t* pixels, uint64_t begins, uint32_t end) {
-  uint64_t left = kernels().count_runs(pixels, begins, end, table_.data(), table_.size());
+  uint64_t left = histogram_kernels().count_runs(pixels, begins, end, table_.data(), table_.size());
   for (; left != 0; left &= left - 1) {
     const auto first = static_cast<uint32_t>(std::countr_zero(left));
     const uint64_t later = begins & ~uint64_t{1} << first;

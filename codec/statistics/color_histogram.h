@@ -7,32 +7,33 @@
 #include <utility>
 #include <vector>
 
-#include "simd/color_buckets.h"
+#include "statistics/color_buckets.h"
 
 namespace tilepress {
 
-/// Counts of a frame and of the one before. What the frame before had need not be put in again: most of its
-/// colours come back.
+/// Counts of a frame and of the frame before. Colours of the frame before stay in the table, since most of
+/// them come back.
 class ColorHistogram {
  public:
-  /// Empties it. The table will have at most `largest_size` places, and be seven eighths full then, half
-  /// before. Frames of up to three eighths as many colours always have room.
+  /// Empties the table. It grows up to `largest_size` places, and is then up to seven eighths full, before
+  /// that up to half. Frames of up to three eighths as many colours always have room.
   void clear(size_t largest_size);
-  /// Gives its memory back; clear() before it is used again.
+  /// Frees the memory. Call clear() before the next use.
   void release() { *this = {}; }
-  /// False: no room for another colour; the counts are not complete any more.
+  /// Adds to a colour's count. Returns false if there is no room for another colour; the counts are
+  /// incomplete then.
   bool add(uint32_t color, uint32_t count);
-  /// The same for runs of pixels of one colour: bit i of `begins`, which is not 0, says that one begins at
-  /// pixel i, and the last ends before `end` (at most 64).
+  /// The same for runs of pixels of one colour. A run begins at each set bit of `begins`, which is not 0. The
+  /// last run ends before `end` (at most 64).
   bool add_runs(const uint32_t* pixels, uint64_t begins, uint32_t end);
-  /// 0 if the colour does not occur.
+  /// Returns 0 if the colour does not occur.
   uint32_t count(uint32_t color) const;
-  /// visit(count, count in the frame before) for each colour of either frame and any number of times with 0
-  /// and 0, in any order. What was counted becomes the frame before.
+  /// Calls visit(count, count in the frame before) for each colour of either frame, in any order, and any
+  /// number of times with (0, 0). The frame becomes the frame before.
   template <typename Visit>
   void end_frame(const Visit& visit);
-  /// visit(colour, count) for each colour of the frame before, in an order that is the same until another is
-  /// added.
+  /// Calls visit(colour, count) for each colour of the frame before. The order stays the same until a colour
+  /// is added.
   template <typename Visit>
   void for_each_before(const Visit& visit) const {
     for (size_t at = 0; at < table_.size(); ++at)
@@ -45,12 +46,12 @@ class ColorHistogram {
   using Counts = std::array<uint32_t, kPlaces>;
 
   size_t after(size_t at) const { return at + 1 == table_.size() ? 1 : at + 1; }
-  /// Where the colour is, or the empty place where it would be.
+  /// Returns the place of the colour, or the empty place for it.
   std::pair<size_t, uint32_t> place_of(uint32_t color) const;
-  /// Whether colours may lie beyond a bucket, which then stays full.
+  /// Returns true if colours may lie beyond a bucket. Such a bucket stays full.
   bool overflowed(size_t at) const;
   void reset(size_t buckets);
-  /// Puts the colours of both frames into a table of so many buckets.
+  /// Moves the colours of both frames into a table of `buckets` buckets.
   void rebuild(size_t buckets);
   bool make_room();
 
@@ -58,11 +59,11 @@ class ColorHistogram {
   std::vector<Counts> before_;  ///< of the same places
   size_t largest_ = 0;          ///< buckets
   size_t used_ = 0;             ///< colours, without colour 0
-  size_t stale_ = 0;            ///< of them, at most so many are of neither frame
+  size_t stale_ = 0;            ///< upper bound of the used colours that neither frame has
 };
 
-// Hardly a branch depends on the counts. Colours that came only before this frame leave, but not those that
-// others may lie beyond.
+// Few branches depend on the counts. A colour that only the frame before had leaves, unless colours may lie
+// beyond its bucket.
 template <typename Visit>
 void ColorHistogram::end_frame(const Visit& visit) {
   stale_ = 0;
@@ -85,14 +86,14 @@ void ColorHistogram::end_frame(const Visit& visit) {
   }
 }
 
-/// How often colours occur, without the colours: what entropy and coverage are computed from. The result does
-/// not depend on the order of the additions.
+/// The counts of a frame's colours without the colours, for entropy and coverage. The order of the additions
+/// does not change the result.
 class CountProfile {
  public:
-  static constexpr uint32_t kSmall = 1024;  ///< smaller counts are kept by number of colours
+  static constexpr uint32_t kSmall = 1024;  ///< smaller counts are stored as numbers of colours
 
   void clear();
-  /// A colour of `count` pixels; 0 is none.
+  /// Adds a colour of `count` pixels; 0 adds none.
   void add(uint32_t count) {
     colors_ += count != 0;
     if (count < kSmall)
@@ -100,17 +101,17 @@ class CountProfile {
     else
       large_.push_back(count);
   }
-  /// `colors` colours of `count` < kSmall pixels each.
+  /// Adds `colors` colours of `count` < kSmall pixels each.
   void add_small(uint32_t count, uint64_t colors) {
     colors_ += colors;
     small_[count] += static_cast<uint32_t>(colors);
   }
-  /// After the last add().
+  /// Call it after the last add().
   void close();
   uint64_t colors() const { return colors_; }
-  /// Shannon entropy in bits per pixel; the counts add up to `pixels`.
+  /// Returns the Shannon entropy in bits per pixel. The counts add up to `pixels`.
   double entropy(double pixels) const;
-  /// Sum of the `how_many` largest counts.
+  /// Returns the sum of the `how_many` largest counts.
   uint64_t most_frequent(uint64_t how_many) const;
 
  private:

@@ -1,4 +1,4 @@
-// Cost model: plain arithmetic on the paper's figures.
+// Cost model: arithmetic on the paper's figures.
 #include "tilepress/cost_model.h"
 
 #include <bit>

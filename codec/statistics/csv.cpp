@@ -1,6 +1,7 @@
 // CSV rows of frames.csv and schemes.csv (spec §10).
 #include <charconv>
 
+#include "tilepress/scheme.h"
 #include "tilepress/statistics.h"
 
 namespace tilepress {
@@ -44,9 +45,13 @@ std::string frames_csv_header() {
 }
 
 std::string schemes_csv_header() {
-  return "frame,surface,scheme,warmup,blocks,raw_bits,payload_bits,bursts,csb_bits,palette_bits,rate_payload,"
-         "rate,"
-         "extra_bits,vdcp_blocks,ras_blocks,checked_blocks,mismatched_blocks,rate_with_extra\n";
+  std::string header =
+      "frame,surface,scheme,warmup,blocks,raw_bits,payload_bits,bursts,csb_bits,palette_bits,rate_payload,"
+      "rate,"
+      "extra_bits,";
+  for (const SchemeInfo& info : scheme_registry())
+    for (const char* column : info.columns) header += std::string(column) + ',';
+  return header + "checked_blocks,mismatched_blocks,rate_with_extra\n";
 }
 
 void append_frames_row(const FrameStatistics& frame, std::string& out) {
@@ -89,8 +94,10 @@ void append_schemes_rows(const FrameStatistics& frame, const std::vector<std::st
     add(out, scheme.rate_payload());
     add(out, scheme.rate());
     add(out, scheme.extra_bits);
-    add(out, scheme.vdcp_blocks);
-    add(out, scheme.ras_blocks);
+    const std::string_view name = std::string_view(scheme_names[i]).substr(0, scheme_names[i].find(':'));
+    for (const SchemeInfo& info : scheme_registry())
+      for (size_t column = 0; column < info.columns.size(); ++column)
+        add(out, name == info.name ? scheme.own[column] : 0);
     add(out, scheme.checked_blocks);
     add(out, scheme.mismatched_blocks);
     add(out, scheme.rate_with_extra());

@@ -1,23 +1,23 @@
-// Frame metrics: colour counts of a frame and the one before, and the figures read off them.
+// Frame metrics: counts the colours and computes the figures.
 #include "statistics/frame_metrics.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "cpu/bit_count.h"
 #include "dcp/fvc.h"
-#include "simd/bit_count.h"
 
 namespace tilepress {
 namespace {
 
-/// With fewer pixels to a colour, distributing them is quicker than hashing the colours: in large frames the
-/// table leaves the caches, in small ones going through all groups takes long.
+/// With fewer pixels per colour, distributing pixels is faster than hashing colours. In large frames the hash
+/// table leaves the caches; in small frames a walk over all groups takes long.
 size_t pixels_per_color(size_t pixels) {
   return pixels < 1u << 18 ? 12 : 64;
 }
 
-/// Places for the colours of two such frames; they take an eighth of a raw frame of 4 bytes a pixel, or two
-/// thirds of a small one.
+/// Returns the places for the colours of two such frames. They take an eighth of a raw frame of 4 bytes per
+/// pixel, or two thirds of a small one.
 size_t largest_table(size_t pixels) {
   return std::max<size_t>(1024, pixels * 8 / 3 / pixels_per_color(pixels));
 }
@@ -60,8 +60,9 @@ void FrameMeter::see_all(const uint32_t* pixels, uint32_t count) {
 
 void FrameMeter::see_pixels(const uint32_t* pixels, uint32_t count, uint64_t alike) {
   if (!counting_) return;
-  const uint64_t begins = (~alike & ~uint64_t{0} >> (kLanes - count)) | 1;
-  counting_ = counts_.add_runs(pixels, begins, count);  // past recent_: these hardly come back soon
+  const uint64_t begins = (~alike & ~uint64_t{0} >> (kBlockPixels - count)) | 1;
+  counting_ =
+      counts_.add_runs(pixels, begins, count);  // not through recent_: these colours rarely come back soon
 }
 
 void FrameMeter::see_block(const FewColors& few) {
@@ -101,7 +102,7 @@ FrameMetrics FrameMeter::measure(const PixelPlane& frame, std::optional<uint64_t
   const auto share = [pixels](uint64_t part) {
     return static_cast<double>(part) / static_cast<double>(pixels);
   };
-  // Some way below the limit before it goes back: hashing and distributing by turns costs both.
+  // Returns to hashing only well below the limit, since a switch costs both ways.
   many_ = profile_.colors() * pixels_per_color(pixels) * (many_ ? 2 : 1) > pixels;
   if (!many_ && !hashed_) {
     counts_.clear(largest_table(pixels));
@@ -116,8 +117,8 @@ FrameMetrics FrameMeter::measure(const PixelPlane& frame, std::optional<uint64_t
   FrameMetrics metrics;
   metrics.unique_colors = profile_.colors();
   metrics.entropy = profile_.entropy(static_cast<double>(pixels));
-  // Both frames have as many pixels, so what some colours gained others lost: half the sum of all differences
-  // is the sum of the gains.
+  // Both frames have the same number of pixels, so some colours gain what others lose: half the sum of all
+  // differences is the sum of the gains.
   if (compare) {
     metrics.pixel_change = share(*changed);
     metrics.color_change = share(change_.gained);

@@ -28,8 +28,7 @@ SchemeStatistics& SchemeStatistics::operator+=(const SchemeStatistics& other) {
   csb_bits += other.csb_bits;
   palette_bits += other.palette_bits;
   extra_bits += other.extra_bits;
-  vdcp_blocks += other.vdcp_blocks;
-  ras_blocks += other.ras_blocks;
+  for (size_t i = 0; i < own.size(); ++i) own[i] += other.own[i];
   checked_blocks += other.checked_blocks;
   mismatched_blocks += other.mismatched_blocks;
   return *this;

@@ -6,7 +6,8 @@
 
 namespace tilepress {
 
-/// Of the words' little-endian bytes; `word_bytes` (2 or 4) of each. Continues `crc`, which begins at 0.
+/// Returns the checksum of the low `word_bytes` (2 or 4) bytes of each word, little-endian. `crc` is the
+/// checksum of the words before, or 0.
 uint64_t crc64(std::span<const uint32_t> words, uint32_t word_bytes, uint64_t crc);
 
 }  // namespace tilepress

@@ -1,24 +1,23 @@
-// TE: transaction elimination. A 16×16 tile whose checksum is that of the frame before is not written again.
+// TE: transaction elimination. A 16×16 tile with the checksum of the frame before is not written again.
 //
 //   CSB       1 bit, the same for the blocks of a tile: 1 = written in this frame, 0 = left as it was
 //   payload   written: 64 raw pixels; left: nothing
 //   tables    64 bits a tile, tiles in raster order: CRC-64/XZ of its pixels' bytes
 //
-// Modelling decisions. Tiles of 16×16 pixels (four blocks; at the right and bottom edge as many as there are)
-// with one 64-bit checksum each are ARM's for its Mali GPUs; which function it uses is not public. The
-// checksum covers the tile's pixels row by row, padding included as in every block. Every frame writes its
-// checksums (palette_bits) and reads those of the frame before (extra_bits, as many; 0 in a surface's first
-// frame). A real buffer needs no CSB, its unwritten tiles simply stay; the bit stands for what memory knows
-// by itself, so that a block's bits say whether it changed.
-// Two different tiles may have equal checksums: the new one is then lost, in the hardware as here. Random
-// pixels collide once in 2^64; a CRC is no defence against pixels made to collide. --verify would see it,
-// since the decoder keeps the surface it restored and is compared with what was drawn.
+// Modelling decisions. ARM's Mali GPUs use tiles of 16×16 pixels (four blocks; fewer at the right and bottom
+// edge) with one 64-bit checksum each. The function is not public. Here the checksum covers the tile's pixels
+// row by row, padding included. Every frame writes its checksums (palette_bits) and reads the checksums of
+// the frame before (extra_bits; 0 in a surface's first frame). A real buffer needs no CSB: its unwritten
+// tiles stay. The CSB bit makes a block's bits say whether the block changed. Two different tiles may have
+// equal checksums; the new tile is lost then, as in the hardware. Random pixels collide once in 2^64, but
+// pixels can be made to collide. --verify notices: the decoder keeps the surface that it restored, and the
+// engine compares it with the frame.
 #include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
 
-#include "raw_bits.h"
+#include "pixels/raw_bits.h"
 #include "scheme_factory.h"
 #include "te/crc64.h"
 
@@ -53,8 +52,7 @@ class TeEncoder final : public BlockEncoder {
   uint64_t palette_bits() const override { return uint64_t{now_.size()} * kChecksumBits; }
   void write_tables(BitWriter& out) const override {
     for (const uint64_t checksum : now_) {
-      out.put(checksum >> 32, 32);
-      out.put(checksum & 0xFFFFFFFFu, 32);
+      out.put64(checksum);
     }
   }
   uint32_t measure(const BlockContext& block) const override {
@@ -79,18 +77,18 @@ class TeEncoder final : public BlockEncoder {
   std::vector<uint64_t> now_, before_;  ///< checksums by tile; before_ is empty in the first frame
 };
 
-/// Keeps the surface as the blocks written so far have made it.
+/// Keeps the blocks restored so far.
 class TeDecoder final : public BlockDecoder {
  public:
   TeDecoder(const SchemeSpec&, const FormatTraits& format, const ModelOptions&)
       : pixel_bits_(format.pixel_bits) {}
 
-  /// The checksums serve the next frame's encoder; a reader only steps over them.
+  /// Skips the checksums, which only the next frame's encoder uses.
   bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override {
     tables.skip(table_bits);
     return csb_bits == 1 && table_bits % kChecksumBits == 0 && !tables.overran();
   }
-  /// A block that was not written has no bits to be restored from.
+  /// Returns false for a block that was not written: it has no bits.
   bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
     if (csb.get(1) == 0) return false;
     read_raw_block(payload, pixel_bits_, out);
@@ -117,17 +115,13 @@ class TeDecoder final : public BlockDecoder {
 
 }  // namespace
 
-const SchemeInfo kTeInfo = {"te",
-                            "TE",
-                            "16x16 tiles whose 64-bit checksum did not change are not written",
-                            "ARM transaction elimination",
-                            false,
-                            false,
-                            make_encoder<TeEncoder>,
-                            make_decoder<TeDecoder>,
-                            false,
-                            false,
-                            false,
-                            true};
+const SchemeInfo kTeInfo = {.name = "te",
+                            .label = "TE",
+                            .family = "te",
+                            .summary = "16x16 tiles whose 64-bit checksum did not change are not written",
+                            .source = "ARM transaction elimination",
+                            .make_encoder = make_encoder<TeEncoder>,
+                            .make_decoder = make_decoder<TeDecoder>,
+                            .needs_frame_before = true};
 
 }  // namespace tilepress

@@ -38,8 +38,9 @@ bool set_schemes(RunOptions& options, std::string_view& value, std::string& reas
     const std::string_view part = value.substr(begin, space - begin);
     begin = space + 1;
     if (part.empty()) continue;
-    auto spec = parse_scheme(part, reason);
+    auto spec = parse_scheme(part);
     if (!spec) {
+      reason = spec.error().text;
       // The parser names the specification, as the callers do.
       const std::string prefix = "scheme '" + std::string(part) + "': ";
       if (reason.starts_with(prefix)) reason.erase(0, prefix.size());

@@ -16,6 +16,7 @@
 #include "tilepress/csv_reader.h"
 #include "tilepress/live_page.h"
 #include "tilepress/live_picture.h"
+#include "tilepress/scheme.h"
 
 namespace tilepress {
 namespace {
@@ -168,8 +169,9 @@ bool read_schemes(std::string_view text, RunRecord& out, std::string& error) {
     row.csb_bits = table.number<uint64_t>("csb_bits");
     row.palette_bits = table.number<uint64_t>("palette_bits");
     row.extra_bits = table.number_or_zero<uint64_t>("extra_bits");
-    row.vdcp_blocks = table.number_or_zero<uint64_t>("vdcp_blocks");
-    row.ras_blocks = table.number_or_zero<uint64_t>("ras_blocks");
+    if (const SchemeInfo* info = find_scheme(name.substr(0, name.find(':'))))
+      for (size_t i = 0; i < info->columns.size(); ++i)
+        row.own[i] = table.number_or_zero<uint64_t>(info->columns[i]);
     row.checked_blocks = table.number_or_zero<uint64_t>("checked_blocks");
     row.mismatched_blocks = table.number_or_zero<uint64_t>("mismatched_blocks");
     if (const std::string fault = table.fault(); !fault.empty()) {

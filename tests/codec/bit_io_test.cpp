@@ -92,7 +92,8 @@ TEST(BitIo, UnaryOfAnyLengthComesBack) {
   for (uint32_t count : {0u, 1u, 31u, 32u, 33u, 64u, 100u}) {
     std::array<uint8_t, 16> bytes{};
     BitWriter writer(bytes);
-    writer.put_unary(count);
+    for (uint32_t i = 0; i < count; ++i) writer.put(1, 1);
+    writer.put(0, 1);
     writer.flush();
     EXPECT_EQ(writer.bit_count(), count + 1);
     BitReader reader(bytes, writer.bit_count());

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "dcp/ccd.h"
-#include "ras/ras_stream.h"
+#include "dcp/ccd_view.h"
+#include "dcp/index_widths.h"
 #include "surface_patterns.h"
 #include "tilepress/scheme.h"
 
@@ -18,9 +18,8 @@ namespace harness {
 using namespace tilepress;
 
 inline SchemeSpec parsed(const std::string& text) {
-  std::string error;
-  auto spec = parse_scheme(text, error);
-  if (!spec) throw std::runtime_error(error);
+  auto spec = parse_scheme(text);
+  if (!spec) throw std::runtime_error(spec.error().text);
   return *spec;
 }
 
@@ -55,7 +54,8 @@ class BlockHarness {
   /// `ccd` null: no dictionary yet.
   BlockHarness(const std::string& text, const Ccd* ccd, PixelFormat format = PixelFormat::kRgba8,
                const ModelOptions& model = {})
-      : format_(traits(format)), has_ccd_(ccd != nullptr) {
+
+      : pixel_format_(format), format_(traits(format)), has_ccd_(ccd != nullptr), analyses_(format_) {
     if (ccd != nullptr) ccd_ = *ccd;
     const SchemeSpec spec = parsed(text);
     const SchemeInfo* info = find_scheme(spec.name);
@@ -63,8 +63,13 @@ class BlockHarness {
     decoder_ = info->make_decoder(spec, format_, model);
     const reference::Picture picture{8, 8, std::vector<uint32_t>(64)};
     plane_.assign(patterns::in_memory(picture, format).view());
-    encoder_->begin_frame(
-        {.plane = plane_, .ordinal = has_ccd_ ? 1u : 0u, .ccd = has_ccd_ ? &ccd_ : nullptr});
+    analyses_.provide<CcdSource>(dictionary_);
+    encoder_->subscribe(analyses_);
+    if (has_ccd_) dictionary_.view.ccd = &ccd_;
+    const std::vector<uint8_t> changed(1, 1);
+    const FrameContext frame{plane_, has_ccd_ ? 1u : 0u, changed.data()};
+    analyses_.for_each([&](BlockAnalysis& analysis) { analysis.begin_frame(frame); });
+    encoder_->begin_frame(frame);
     tables_.resize((encoder_->palette_bits() + 7) / 8);
     BitWriter writer(tables_);
     encoder_->write_tables(writer);
@@ -118,22 +123,38 @@ class BlockHarness {
         widths[sub] = width_of(*std::max_element(indices.begin() + sub * 4, indices.begin() + sub * 4 + 4));
       context.pixels = pixels.data();
       context.uniform = std::count(pixels.begin(), pixels.end(), pixels[0]) == kBlockPixels;
-      if (owner.has_ccd_) {
-        context.ccd_indices = indices.data();
-        context.ccd_widths = widths.data();
-      }
-      context.ras_bits = ras_stream_bits(block.pixels.data(), kBlockSide, owner.format_, false);
-      context.ras_ycocg_bits = ras_stream_bits(block.pixels.data(), kBlockSide, owner.format_, true);
+      owner.dictionary_.view.indices = indices.data();
+      owner.dictionary_.view.widths = widths.data();
+      owner.show(block);
     }
     std::array<uint32_t, kBlockPixels> pixels;
     std::array<uint16_t, kBlockPixels> indices;
     std::array<uint8_t, kSubBlocks> widths;
     BlockContext context;
   };
+  /// The dictionary and the look-up of the block at hand.
+  struct Dictionary final : CcdSource {
+    const CcdView& view_of(const FvcConfig&) override { return view; }
+    CcdView view;
+  };
+  /// Lets the other analyses see a block, as a frame of that block alone.
+  void show(const Block& block) const {
+    reference::Picture picture{8, 8, {block.pixels.begin(), block.pixels.end()}};
+    plane_.assign(patterns::in_memory(picture, pixel_format_).view());
+    const std::vector<uint8_t> changed(1, 1);
+    const BlockContext context{.block = block};
+    analyses_.for_each([&](BlockAnalysis& analysis) {
+      analysis.begin_frame({plane_, 0, changed.data()});
+      analysis.see_block(context);
+    });
+  }
+  const PixelFormat pixel_format_;
   const FormatTraits format_;
   const bool has_ccd_;
   Ccd ccd_;
-  PixelPlane plane_;
+  mutable PixelPlane plane_;
+  mutable SharedAnalyses analyses_;
+  mutable Dictionary dictionary_;
   std::unique_ptr<BlockEncoder> encoder_;
   std::unique_ptr<BlockDecoder> decoder_;
   std::vector<uint8_t> tables_;

@@ -7,9 +7,8 @@
 #include <set>
 #include <vector>
 
-#include "simd/kernels.h"
-#include "surface_patterns.h"
-#include "tilepress/simd.h"
+#include "kernel_targets.h"
+#include "statistics/histogram_kernels.h"
 
 using namespace tilepress;
 
@@ -109,5 +108,37 @@ TEST(ColorHistogram, OfAFewColoursStaysSmallHoweverManyCameBefore) {
   for (int frame = 0; frame < 1000; ++frame) {
     for (int i = 0; i < 384; ++i) ASSERT_TRUE(histogram.add(next++ * 0x01000193u, 1)) << frame;
     histogram.end_frame([](uint32_t, uint32_t) {});
+  }
+}
+
+TEST(HistogramKernels, CountRunsIsTheSameOnEveryTarget) {
+  patterns::Dice dice(22);
+  constexpr size_t kBuckets = 9;
+  for (int round = 0; round < 1000 && !HasFatalFailure(); ++round) {
+    const auto pixels = patterns::draw_block(1 + dice.below(40), 1 + dice.below(8), dice);
+    const uint32_t end = 1 + dice.below(64);
+    uint64_t begins = 1;
+    for (uint32_t i = 1; i < end; ++i) begins |= uint64_t{pixels[i] != pixels[i - 1]} << i;
+    std::vector<ColorBucket> table(kBuckets, ColorBucket{});
+    for (uint32_t i = 0; i < end; i += 3) {  // some of the colours
+      ColorBucket& bucket = table[ColorBucket::of(pixels[i], kBuckets)];
+      if (bucket.find(pixels[i]) != ColorBucket::kPlaces) continue;
+      if (const uint32_t place = bucket.find(0); place != ColorBucket::kPlaces)
+        bucket.colors[place] = pixels[i];
+    }
+    const auto counts_after = [&](const HistogramKernels& kernels, uint64_t& others) {
+      std::vector<ColorBucket> counted = table;
+      others = kernels.count_runs(pixels.data(), begins, end, counted.data(), kBuckets);
+      std::vector<uint32_t> counts;
+      for (const ColorBucket& bucket : counted) counts.insert(counts.end(), bucket.counts, bucket.counts + 8);
+      return counts;
+    };
+    uint64_t others = 0;
+    const auto wanted = counts_after(kPlainHistogramKernels, others);
+    patterns::on_every_target([&] {
+      uint64_t other_others = 0;
+      ASSERT_EQ(counts_after(histogram_kernels(), other_others), wanted);
+      ASSERT_EQ(other_others, others);
+    });
   }
 }

@@ -9,7 +9,8 @@
 #include "dcp/algorithm1.h"
 #include "dcp/ccd.h"
 #include "dcp/fvc.h"
-#include "huffman.h"
+#include "dictionary/color_table.h"
+#include "dictionary/huffman.h"
 
 using namespace tilepress;
 
@@ -41,34 +42,32 @@ TEST(Ccd, OrdersByCountThenBySlot) {
   EXPECT_EQ(ccd.counts, (Counts{3, 2, 2, 1}));
 }
 
-TEST(Rccd, ReadsBackWhatItWrote) {
-  Ccd ccd;
-  ccd.entries = 4;
-  ccd.colors = {0xFFFFFFFF, 0, 7};
-  ccd.counts = {3, 2, 1};
+TEST(ColorTable, ReadsBackWhatItWrote) {
+  const std::vector<uint32_t> colors = {0xFFFFFFFF, 0, 7};
   std::vector<uint8_t> bytes(17);
   BitWriter writer(bytes);
-  Rccd::write(ccd, 4, 32, writer);
+  write_colors(colors, 4, 32, writer);
   EXPECT_EQ(writer.bit_count(), 4 * 33u);
   writer.flush();
   BitReader reader(bytes, writer.bit_count());
-  Rccd rccd;
-  ASSERT_TRUE(rccd.read(reader, 4, 32));
-  EXPECT_EQ(rccd.colors, ccd.colors);
+  ColorTable table;
+  ASSERT_TRUE(table.read(reader, 4, 32));
+  EXPECT_EQ(table.colors(), colors);
+  EXPECT_EQ(table.slots(), 4u);
 }
 
-TEST(Rccd, RefusesSlotCountsAndGapsThatNoEncoderWrites) {
+TEST(ColorTable, RefusesSlotCountsAndGapsThatNoEncoderWrites) {
   std::vector<uint8_t> bytes(9000, 0);
-  Rccd rccd;
+  ColorTable table;
   for (const uint64_t slots : {0, 3, 2048}) {
     BitReader reader(bytes);
-    EXPECT_FALSE(rccd.read(reader, slots, 32)) << slots;
+    EXPECT_FALSE(table.read(reader, slots, 32)) << slots;
   }
   bytes[33 / 8] = 0x40;  // slot 0 invalid, slot 1 (bit 33) valid
   BitReader gap(bytes);
-  EXPECT_FALSE(rccd.read(gap, 2, 32));
+  EXPECT_FALSE(table.read(gap, 2, 32));
   BitReader truncated(std::span<const uint8_t>(bytes).first(4));
-  EXPECT_FALSE(rccd.read(truncated, 1, 32));
+  EXPECT_FALSE(table.read(truncated, 1, 32));
 }
 
 TEST(Algorithm1, PrefersTwoEntriesInThePapersExample) {

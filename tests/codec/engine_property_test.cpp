@@ -19,9 +19,8 @@ using patterns::Picture;
 namespace {
 
 SchemeSpec spec(const std::string& text) {
-  std::string error;
-  const auto parsed = parse_scheme(text, error);
-  if (!parsed) throw std::runtime_error(error);
+  const auto parsed = parse_scheme(text);
+  if (!parsed) throw std::runtime_error(parsed.error().text);
   return *parsed;
 }
 

@@ -39,9 +39,7 @@ class Input {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
   Input input({bytes, size});
-  std::string error;
-  const auto spec =
-      parse_scheme(harness::kSchemeTexts[input.byte() % std::size(harness::kSchemeTexts)], error);
+  const auto spec = parse_scheme(harness::kSchemeTexts[input.byte() % std::size(harness::kSchemeTexts)]);
   if (!spec) __builtin_trap();
   constexpr PixelFormat kFormats[] = {PixelFormat::kRgba8, PixelFormat::kRgbx8, PixelFormat::kRgb565,
                                       PixelFormat::kRgb10a2};

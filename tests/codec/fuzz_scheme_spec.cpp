@@ -9,18 +9,23 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
   using namespace tilepress;
   const std::string_view text(reinterpret_cast<const char*>(bytes), size);
-  std::string error;
-  const auto spec = parse_scheme(text, error, PaletteFiles::kLeave);  // opens no file
+  const auto spec = parse_scheme(text, SchemeFiles::kLeave);  // opens no file
   if (!spec) {
-    if (error.find("scheme '") != 0) __builtin_trap();
+    if (spec.error().text.find("scheme '") != 0) __builtin_trap();
     return 0;
   }
-  const FvcConfig& fvc = spec->fvc;
-  if (spec->text != text || find_scheme(spec->name) == nullptr) __builtin_trap();
-  if (fvc.entries < 2 || fvc.entries > 1024 || (fvc.entries & (fvc.entries - 1)) != 0) __builtin_trap();
-  if (fvc.ways_per_set() == 0 || fvc.entries % fvc.ways_per_set() != 0) __builtin_trap();
-  if (fvc.sample == 0 || fvc.period == 0 || !(spec->coverage >= 0 && spec->coverage <= 1)) __builtin_trap();
-  if (spec->entries < 2 || spec->entries > 1024 || (spec->entries & (spec->entries - 1)) != 0)
+  const SchemeInfo* info = find_scheme(spec->name);
+  if (spec->text != text || info == nullptr || spec->values.size() != info->keys.size()) __builtin_trap();
+  for (const SchemeKey& key : info->keys) {
+    if (key.kind == KeyKind::kShare && !(spec->share(key.name) >= 0 && spec->share(key.name) <= 1))
+      __builtin_trap();
+    if (key.kind != KeyKind::kNumber && key.kind != KeyKind::kPowerOfTwo) continue;
+    const uint32_t number = spec->number(key.name);
+    if (number != key.initial && (number < key.low || number > key.high)) __builtin_trap();
+    if (key.kind == KeyKind::kPowerOfTwo && (number & (number - 1)) != 0) __builtin_trap();
+  }
+  if (info->has_dcp_structures && spec->number("ways") != 0 &&
+      spec->number("fvc") % spec->number("ways") != 0)
     __builtin_trap();
   return 0;
 }

@@ -22,7 +22,7 @@ std::vector<uint8_t> random_bytes(patterns::Dice& dice, size_t size) {
 }
 
 uint32_t entries_of(const char* text) {
-  return parsed(text).fvc.entries;
+  return reference::number_of(parsed(text), "fvc", 64);
 }
 
 Ccd some_dictionary(uint32_t entries, PixelFormat format, patterns::Dice& dice) {

@@ -6,8 +6,8 @@
 
 #include "dcp/fvc.h"
 #include "dcp/lfc_collector.h"
-#include "ras/ras_samples.h"
-#include "simd/kernels.h"
+#include "pixels/pixel_kernels.h"
+#include "ras/ras_kernels.h"
 #include "surface_patterns.h"
 #include "tilepress/simd.h"
 
@@ -31,7 +31,7 @@ void fvc(benchmark::State& state, uint32_t pattern) {
   size_t at = 0;
   uint32_t block[kBlockPixels];
   for (auto _ : state) {
-    if (!kernels().load_traversal(&pixels[at], kBlockSide, block)) collector.see_block(block);
+    if (!pixel_kernels().load_traversal(&pixels[at], kBlockSide, block)) collector.see_block(block);
     at = (at + kBlockPixels) % pixels.size();
   }
   set_rate(state);
@@ -54,9 +54,9 @@ void ras(benchmark::State& state, uint32_t pattern, const std::string& target) {
   int16_t samples[kRasSamples];
   size_t at = 0;
   for (auto _ : state) {
-    kernels().widen_bytes(&pixels[at], kBlockSide, samples);
+    ras_kernels().widen_bytes(&pixels[at], kBlockSide, samples);
     fill_ras_border(samples);
-    benchmark::DoNotOptimize(kernels().ras_code_bits(samples));
+    benchmark::DoNotOptimize(ras_kernels().code_bits(samples));
     at = (at + kBlockPixels) % pixels.size();
   }
   set_rate(state);

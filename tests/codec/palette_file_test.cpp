@@ -31,8 +31,11 @@ class TemporaryFile {
 
 std::string fault(const std::string& content) {
   const TemporaryFile file(content);
-  std::string error;
-  EXPECT_FALSE(parse_scheme("palette:file=" + file.path(), error).has_value()) << content;
+  const auto spec = parse_scheme("palette:file=" + file.path());
+  EXPECT_FALSE(spec.has_value()) << content;
+  if (spec) return {};
+  EXPECT_EQ(spec.error().kind, ErrorKind::kFile);
+  const std::string error = spec.error().text;
   EXPECT_NE(error.find("file=" + file.path() + ": "), std::string::npos) << error;
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   return error;
@@ -42,10 +45,9 @@ std::string fault(const std::string& content) {
 
 TEST(PaletteFile, ReadsColoursWithAndWithoutAlpha) {
   const TemporaryFile file("#102030\n\n  #AbCdEf80\r\n#000000");
-  std::vector<uint32_t> colors;
-  std::string error;
-  ASSERT_TRUE(read_palette_file(file.path(), colors, error)) << error;
-  EXPECT_EQ(colors, (std::vector<uint32_t>{0xFF302010, 0x80EFCDAB, 0xFF000000}));
+  const auto colors = read_palette_file(file.path());
+  ASSERT_TRUE(colors.has_value()) << colors.error().text;
+  EXPECT_EQ(*colors, (std::vector<uint32_t>{0xFF302010, 0x80EFCDAB, 0xFF000000}));
 }
 
 TEST(PaletteFile, ErrorsNameFileLineAndFault) {
@@ -59,27 +61,26 @@ TEST(PaletteFile, ErrorsNameFileLineAndFault) {
   EXPECT_NE(fault(many).find("line 1025: more than 1024 colours"), std::string::npos);
   EXPECT_NE(fault(std::string(70000, '\n')).find("larger than 64 KiB"), std::string::npos);
   EXPECT_NE(fault(std::string("\x01\x02\x00\xff", 4)).find("line 1: '?"), std::string::npos);
-  std::string error;
-  EXPECT_FALSE(parse_scheme("palette:file=/nowhere/at/all", error).has_value());
-  EXPECT_NE(error.find("file=/nowhere/at/all: no such file"), std::string::npos) << error;
-  EXPECT_FALSE(parse_scheme("palette:file=/", error).has_value());
+  const auto nowhere = parse_scheme("palette:file=/nowhere/at/all");
+  ASSERT_FALSE(nowhere.has_value());
+  EXPECT_NE(nowhere.error().text.find("file=/nowhere/at/all: no such file"), std::string::npos);
+  EXPECT_FALSE(parse_scheme("palette:file=/").has_value());
 }
 
 TEST(PaletteFile, IsNotOpenedByWhoOnlyDecodes) {
-  std::string error;
-  const auto spec = parse_scheme("palette:file=/nowhere/at/all", error, PaletteFiles::kLeave);
-  ASSERT_TRUE(spec.has_value()) << error;
-  EXPECT_TRUE(spec->palette.empty());
-  EXPECT_FALSE(parse_scheme("palette:file=", error, PaletteFiles::kLeave).has_value());
-  EXPECT_FALSE(parse_scheme("palette:file=x,entries=4", error, PaletteFiles::kLeave).has_value());
+  const auto spec = parse_scheme("palette:file=/nowhere/at/all", SchemeFiles::kLeave);
+  ASSERT_TRUE(spec.has_value()) << spec.error().text;
+  EXPECT_TRUE(spec->list("file").empty());
+  EXPECT_FALSE(parse_scheme("palette:file=", SchemeFiles::kLeave).has_value());
+  EXPECT_FALSE(parse_scheme("palette:file=x,entries=4", SchemeFiles::kLeave).has_value());
 }
 
 TEST(PaletteFile, GoesWithNoOtherSource) {
   const TemporaryFile file("#102030\n");
-  std::string error;
   for (const char* other : {",from=first", ",entries=4"}) {
-    EXPECT_FALSE(parse_scheme("palette:file=" + file.path() + other, error).has_value());
-    EXPECT_NE(error.find("do not go with file"), std::string::npos) << error;
+    const auto spec = parse_scheme("palette:file=" + file.path() + other);
+    ASSERT_FALSE(spec.has_value());
+    EXPECT_NE(spec.error().text.find("do not go with file"), std::string::npos);
   }
 }
 

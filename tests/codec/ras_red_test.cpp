@@ -5,8 +5,8 @@
 
 #include "block_harness.h"
 #include "ras/ras_classes.h"
+#include "ras/ras_stream.h"
 #include "ras/ras_samples.h"
-#include "simd/kernels.h"
 #include "tilepress/simd.h"
 
 using namespace harness;
@@ -71,79 +71,6 @@ TEST(RasStream, ResidualsAreFoldedWithoutWrapping) {
   block.pixels[63] = 0;
   EXPECT_EQ(stream_bits(block, false), 224u + 35);
   EXPECT_TRUE(BlockHarness("ras", nullptr).returns(block));
-}
-
-// The scalar kernels are the definition.
-TEST(RasKernels, AreTheSameOnEveryTarget) {
-  const std::string_view target = simd_target();
-  patterns::Dice dice(7);
-  uint64_t long_groups = 0, zero_groups = 0;
-  for (uint32_t round = 0; round < 3000; ++round) {
-    // From hardly any detail to as much as there is, in each plane, of 8-bit channels or the widest samples.
-    const bool bytes = round % 3 != 0;
-    const int32_t most = bytes ? 255 : kRasMostSample - 1, least = bytes ? 0 : 1 - kRasMostSample;
-    int16_t samples[kRasSamples] = {}, pixels[4 * kBlockPixels];
-    for (uint32_t plane = 0; plane < 4; ++plane) {
-      const uint32_t step = 1u << dice.below(bytes ? 9 : 13), rest = dice.below(8);
-      auto value = static_cast<int32_t>(dice.below(256));
-      for (uint32_t i = 0; i < kBlockPixels; ++i) {
-        if (dice.below(8) >= rest)
-          value =
-              std::clamp(value + static_cast<int32_t>(dice.below(2 * step + 1)) - static_cast<int32_t>(step),
-                         least, most);
-        pixels[4 * i + plane] = static_cast<int16_t>(value);
-        samples[ras_sample_index(static_cast<int32_t>(i % 8), static_cast<int32_t>(i / 8)) + plane] =
-            static_cast<int16_t>(value);
-      }
-    }
-    fill_ras_border(samples);
-    force_simd_target("scalar");
-    RasGroups groups;
-    kernels().ras_groups(samples, groups);
-    // What the decoder has: residuals by place, the first pixel as it is.
-    int16_t residuals[4 * kBlockPixels];
-    for (uint32_t plane = 0; plane < 4; ++plane) {
-      for (uint32_t group = 0; group < kSubBlocks; ++group)
-        for (uint32_t i = 0; i < 4; ++i) {
-          const uint32_t u = groups.residuals[i][ras_group_index(plane, group)];
-          const auto half = static_cast<int32_t>(u / 2);
-          residuals[4 * kTraversal[4 * group + i] + plane] =
-              static_cast<int16_t>(u % 2 != 0 ? -half - 1 : half);
-        }
-      residuals[plane] = pixels[plane];
-    }
-    for (const std::string_view each : simd_targets()) {
-      SCOPED_TRACE(each);
-      force_simd_target(each);
-      RasGroups other;
-      kernels().ras_groups(samples, other);
-      uint64_t bits = 0;
-      for (uint32_t at = 0; at < 4 * kSubBlocks; ++at) {
-        for (uint32_t i = 0; i < 4; ++i) ASSERT_EQ(other.residuals[i][at], groups.residuals[i][at]);
-        ASSERT_EQ(other.k[at], groups.k[at]);
-        ASSERT_EQ(other.lengths[at], groups.lengths[at]);
-        ASSERT_TRUE(groups.lengths[at] > kMaxBitsPerCall || other.codes[at] == groups.codes[at]);
-        long_groups += groups.lengths[at] > kMaxBitsPerCall;
-        zero_groups += groups.k[at] == kRasZeroGroup;
-        bits += other.lengths[at];
-      }
-      ASSERT_EQ(kernels().ras_code_bits(samples), bits);
-      int16_t restored[4 * kBlockPixels];
-      std::ranges::copy(residuals, restored);
-      kernels().ras_restore(restored);
-      ASSERT_TRUE(std::ranges::equal(restored, pixels));
-      Block block;
-      const bool fit =
-          std::ranges::all_of(pixels, [](int16_t sample) { return sample >= 0 && sample < 256; });
-      ASSERT_EQ(kernels().narrow_bytes(pixels, block.pixels.data()), fit);
-      for (uint32_t i = 0; fit && i < kBlockPixels; ++i)
-        for (uint32_t plane = 0; plane < 4; ++plane)
-          ASSERT_EQ(block.pixels[i] >> (8 * plane) & 0xFF, static_cast<uint32_t>(pixels[4 * i + plane]));
-    }
-  }
-  force_simd_target(target);
-  EXPECT_GT(long_groups, 1000u);
-  EXPECT_GT(zero_groups, 1000u);
 }
 
 TEST(RasStream, IsTheSameWhereverItBegins) {

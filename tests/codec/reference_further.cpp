@@ -44,17 +44,17 @@ Figures Scheme::further_frame(const Picture& picture) {
   Figures figures;
   code_lengths_.clear();
   if (spec_.name == "fbc") {
-    dictionary_.slots = most_frequent(picture, spec_.entries);
+    dictionary_.slots = most_frequent(picture, number_of(spec_, "entries", 64));
     std::vector<uint64_t> counts;
     for (const Slot& slot : dictionary_.slots) counts.push_back(slot.count);
     code_lengths_ = huffman_lengths(counts);
-    figures.palette_bits = uint64_t{spec_.entries} * (pixel + 1 + 6);
+    figures.palette_bits = uint64_t{number_of(spec_, "entries", 64)} * (pixel + 1 + 6);
   }
   if (spec_.name == "palette" && frame_number_ > 0) {
     uint32_t width = 0;
-    while (1u << width < spec_.entries) ++width;
+    while (1u << width < number_of(spec_, "entries", 64)) ++width;
     code_lengths_.assign(dictionary_.slots.size(), width);
-    figures.palette_bits = uint64_t{spec_.entries} * (pixel + 1);
+    figures.palette_bits = uint64_t{number_of(spec_, "entries", 64)} * (pixel + 1);
   }
   std::vector<uint32_t> block(64);
   uint64_t blocks = 0, tiles = 0;
@@ -64,8 +64,8 @@ Figures Scheme::further_frame(const Picture& picture) {
       ++blocks;
       if (x % 16 == 0 && y % 16 == 0) ++tiles;
       uint32_t payload = raw;
-      if (spec_.name == "bdi") payload = bdi_bits(block, format_, spec_.order);
-      if (spec_.name == "bpc") payload = bpc_bits(block, format_, spec_.order);
+      if (spec_.name == "bdi") payload = bdi_bits(block, format_, number_of(spec_, "order", 0) == 1);
+      if (spec_.name == "bpc") payload = bpc_bits(block, format_, number_of(spec_, "order", 0) == 1);
       if (spec_.name == "fbc" || (spec_.name == "palette" && frame_number_ > 0))
         payload = dictionary_bits(block);
       if (spec_.name == "te" && frame_number_ > 0) {
@@ -89,7 +89,7 @@ Figures Scheme::further_frame(const Picture& picture) {
     before_ = picture;
   }
   if (spec_.name == "palette" && frame_number_ == 0)
-    dictionary_.slots = most_frequent(picture, spec_.entries);
+    dictionary_.slots = most_frequent(picture, number_of(spec_, "entries", 64));
   ++frame_number_;
   return figures;
 }

@@ -47,16 +47,17 @@ uint32_t least(const std::vector<Slot>& slots, uint32_t low, uint32_t ways, int6
 }  // namespace
 
 Collection collect(const SchemeSpec& spec, PixelFormat format, const Picture& picture, uint32_t tile_side) {
-  const auto& fvc = spec.fvc;
-  const uint32_t ways = fvc.ways == 0 ? fvc.entries : fvc.ways;
-  const uint32_t sets = fvc.entries / ways;
+  const uint32_t entries = number_of(spec, "fvc", 64), sample = number_of(spec, "sample", 1);
+  const uint32_t policy = number_of(spec, "policy", 0);  // as the key lists them: lfc, 2lfc, lru, random
+  const uint32_t ways = number_of(spec, "ways", 0) == 0 ? entries : number_of(spec, "ways", 0);
+  const uint32_t sets = entries / ways;
   Collection result;
-  result.slots.resize(fvc.entries);
+  result.slots.resize(entries);
   uint32_t random = 0x9E3779B9;
   uint64_t pixel_number = 0;
   for (const Place& place : traversal(picture.width, picture.height, tile_side)) {
     if (!place.inside) continue;
-    if (pixel_number++ % fvc.sample != 0) continue;
+    if (pixel_number++ % sample != 0) continue;
     const uint64_t now = ++result.samples;
     const uint32_t color = picture.at(place.x, place.y);
     const uint32_t low = xor_of_channels(color, format) % sets * ways;
@@ -76,12 +77,12 @@ Collection collect(const SchemeSpec& spec, PixelFormat format, const Picture& pi
     const auto used = [](const Slot& slot) { return slot.used; };
     if (empty >= 0) {
       target = static_cast<uint32_t>(empty);
-    } else if (fvc.policy == tilepress::FvcPolicy::kLfc) {
+    } else if (policy == 0) {
       target = least(result.slots, low, ways, -1, count);
-    } else if (fvc.policy == tilepress::FvcPolicy::k2Lfc) {
+    } else if (policy == 1) {
       target = least(result.slots, low, ways, -1, count);
       if (ways > 1) target = least(result.slots, low, ways, target, count);
-    } else if (fvc.policy == tilepress::FvcPolicy::kLru) {
+    } else if (policy == 2) {
       target = least(result.slots, low, ways, -1, used);
     } else {
       random ^= random << 13;

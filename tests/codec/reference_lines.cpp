@@ -8,12 +8,11 @@ namespace reference {
 namespace {
 
 /// The block's bytes as they lie in memory.
-std::vector<uint8_t> bytes_of(const std::vector<uint32_t>& block, PixelFormat format,
-                              tilepress::LineOrder order) {
+std::vector<uint8_t> bytes_of(const std::vector<uint32_t>& block, PixelFormat format, bool quads) {
   std::vector<uint8_t> bytes;
   for (uint32_t i = 0; i < 64; ++i) {
     uint32_t position = i;
-    if (order == tilepress::LineOrder::kQuad) position = (i / 16 * 2 + i % 4 / 2) * 8 + i / 4 % 4 * 2 + i % 2;
+    if (quads) position = (i / 16 * 2 + i % 4 / 2) * 8 + i / 4 % 4 * 2 + i % 2;
     for (uint32_t byte = 0; byte < (format == PixelFormat::kRgb565 ? 2u : 4u); ++byte)
       bytes.push_back(static_cast<uint8_t>(block[position] >> 8 * byte));
   }
@@ -99,8 +98,8 @@ uint32_t bpc_line_bits(const std::vector<uint8_t>& line) {
 
 }  // namespace
 
-uint32_t bdi_bits(const std::vector<uint32_t>& block, PixelFormat format, tilepress::LineOrder order) {
-  const std::vector<uint8_t> bytes = bytes_of(block, format, order);
+uint32_t bdi_bits(const std::vector<uint32_t>& block, PixelFormat format, bool quads) {
+  const std::vector<uint8_t> bytes = bytes_of(block, format, quads);
   uint32_t bits = 0;
   for (size_t at = 0; at < bytes.size(); at += 64)
     bits += bdi_line_bits(
@@ -108,8 +107,8 @@ uint32_t bdi_bits(const std::vector<uint32_t>& block, PixelFormat format, tilepr
   return bits;
 }
 
-uint32_t bpc_bits(const std::vector<uint32_t>& block, PixelFormat format, tilepress::LineOrder order) {
-  const std::vector<uint8_t> bytes = bytes_of(block, format, order);
+uint32_t bpc_bits(const std::vector<uint32_t>& block, PixelFormat format, bool quads) {
+  const std::vector<uint8_t> bytes = bytes_of(block, format, quads);
   uint32_t bits = 0;
   for (size_t at = 0; at < bytes.size(); at += 128)
     bits += bpc_line_bits(

@@ -16,6 +16,13 @@ namespace reference {
 using tilepress::PixelFormat;
 using tilepress::SchemeSpec;
 
+/// The value of a key that holds a number or a choice; `fallback` if the scheme has no such key.
+inline uint32_t number_of(const SchemeSpec& spec, std::string_view key, uint32_t fallback) {
+  for (const auto& [name, value] : spec.values)
+    if (name == key) return std::get<uint32_t>(value);
+  return fallback;
+}
+
 /// Pixel words in raster order, row 0 on top.
 struct Picture {
   uint32_t width = 0, height = 0;
@@ -112,7 +119,7 @@ std::vector<uint32_t> huffman_lengths(const std::vector<uint64_t>& counts);
 uint32_t ras_stream(const std::vector<uint32_t>& block, PixelFormat format, bool ycocg);
 
 /// Bits of a block of 64 words in raster order.
-uint32_t bdi_bits(const std::vector<uint32_t>& block, PixelFormat format, tilepress::LineOrder order);
-uint32_t bpc_bits(const std::vector<uint32_t>& block, PixelFormat format, tilepress::LineOrder order);
+uint32_t bdi_bits(const std::vector<uint32_t>& block, PixelFormat format, bool quads);
+uint32_t bpc_bits(const std::vector<uint32_t>& block, PixelFormat format, bool quads);
 
 }  // namespace reference

@@ -164,12 +164,13 @@ uint32_t ras_stream(const std::vector<uint32_t>& block, PixelFormat format, bool
 }
 
 uint32_t Scheme::ras_bits(const std::vector<uint32_t>& block) const {
-  const uint32_t raw = 64 * pixel_bits(format_), stream = ras_stream(block, format_, spec_.ycocg);
-  if (spec_.name == "ras" && spec_.ras_sizes == tilepress::RasSizes::kBurst)
+  const uint32_t raw = 64 * pixel_bits(format_),
+                 stream = ras_stream(block, format_, number_of(spec_, "ycocg", 0) == 1);
+  if (spec_.name == "ras" && number_of(spec_, "sizes", 0) == 2)
     return std::min(raw, (stream + burst_bits_ - 1) / burst_bits_ * burst_bits_);
   if (stream <= raw / 4) return raw / 4;
   if (stream <= raw / 2) return raw / 2;
-  if (stream <= raw / 4 * 3 && spec_.ras_sizes != tilepress::RasSizes::kTwo) return raw / 4 * 3;
+  if (stream <= raw / 4 * 3 && number_of(spec_, "sizes", 0) != 1) return raw / 4 * 3;
   return raw;
 }
 
@@ -212,9 +213,9 @@ uint32_t Scheme::block_bits(const std::vector<uint32_t>& block) const {
 Figures Scheme::frame(const Picture& picture) {
   for (const char* name : {"palette", "fbc", "te", "bdi", "bpc"})
     if (spec_.name == name) return further_frame(picture);
-  const uint32_t bits = pixel_bits(format_), m = rounded_up_log2(spec_.fvc.entries);
+  const uint32_t bits = pixel_bits(format_), m = rounded_up_log2(number_of(spec_, "fvc", 64));
   const bool palette = spec_.name != "red" && spec_.name != "ras";
-  off_ = palette && dictionary_.exists && dictionary_.coverage < spec_.coverage;
+  off_ = palette && dictionary_.exists && dictionary_.coverage < spec_.share("coverage");
   width_ = m;
   if (spec_.name == "adcp" && dictionary_.exists) width_ = algorithm1(dictionary_, bits);
   std::vector<uint64_t> counts;
@@ -235,9 +236,8 @@ Figures Scheme::frame(const Picture& picture) {
   uint32_t csb = 0;
   if (spec_.name == "red") csb = 2;
   if (spec_.name == "ras")
-    csb = spec_.ras_sizes == tilepress::RasSizes::kBurst
-              ? rounded_up_log2((64 * bits + burst_bits_ - 1) / burst_bits_ + 1)
-              : 2;
+    csb = number_of(spec_, "sizes", 0) == 2 ? rounded_up_log2((64 * bits + burst_bits_ - 1) / burst_bits_ + 1)
+                                            : 2;
   if (spec_.name == "dcp" || spec_.name == "adcp" || spec_.name == "huffdcp") csb = off_ ? 0 : 16;
   if (spec_.name == "vdcp") csb = off_ ? 0 : 16 * rounded_up_log2(m + 2);
   if (spec_.name == "hdcp") csb = off_ ? 2 : 16 * 5;
@@ -247,9 +247,9 @@ Figures Scheme::frame(const Picture& picture) {
     figures.palette_bits = slots * (bits + 1 + (spec_.name == "huffdcp" ? 6 : 0));
   }
 
-  if (palette && frame_number_ % spec_.fvc.period == 0) {
+  if (palette && frame_number_ % number_of(spec_, "period", 1) == 0) {
     const Collection collection = collect(spec_, format_, picture, tile_side_);
-    dictionary_ = {true, spec_.fvc.entries, {}, collection.samples, 0};
+    dictionary_ = {true, number_of(spec_, "fvc", 64), {}, collection.samples, 0};
     uint64_t held = 0;
     for (const Slot& slot : collection.slots)
       if (slot.valid) {

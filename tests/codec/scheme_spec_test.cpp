@@ -6,6 +6,9 @@
 #include <set>
 #include <string>
 
+#include "dcp/fvc_config.h"
+#include "pixels/memory_lines.h"
+#include "ras/ras_classes.h"
 #include "tilepress/scheme.h"
 
 using namespace tilepress;
@@ -13,15 +16,17 @@ using namespace tilepress;
 namespace {
 
 SchemeSpec good(const std::string& text) {
-  std::string error = "untouched";
-  const auto spec = parse_scheme(text, error);
-  EXPECT_TRUE(spec.has_value()) << text << ": " << error;
-  return spec.value_or(SchemeSpec{});
+  const auto spec = parse_scheme(text);
+  EXPECT_TRUE(spec.has_value()) << text << ": " << (spec ? "" : spec.error().text);
+  return spec ? *spec : SchemeSpec{};
 }
 
 std::string fault(const std::string& text) {
-  std::string error;
-  EXPECT_FALSE(parse_scheme(text, error).has_value()) << text;
+  const auto spec = parse_scheme(text);
+  EXPECT_FALSE(spec.has_value()) << text;
+  if (spec) return {};
+  EXPECT_EQ(spec.error().kind, text.find("file=") == text.npos ? ErrorKind::kBadValue : ErrorKind::kFile);
+  const std::string error = spec.error().text;
   EXPECT_EQ(error.find('\n'), std::string::npos) << "one line: " << error;
   EXPECT_NE(error.find("scheme '" + text + "'"), std::string::npos) << error;
   return error;
@@ -33,49 +38,49 @@ TEST(SchemeSpec, ANameAloneTakesTheDefaultsOfThePaper) {
   const SchemeSpec spec = good("vdcp");
   EXPECT_EQ(spec.text, "vdcp");
   EXPECT_EQ(spec.name, "vdcp");
-  EXPECT_EQ(spec.fvc.entries, 64u);
-  EXPECT_EQ(spec.fvc.policy, FvcPolicy::kLfc);
-  EXPECT_EQ(spec.fvc.ways_per_set(), 64u);
-  EXPECT_EQ(spec.fvc.sample, 1u);
-  EXPECT_EQ(spec.fvc.period, 1u);
-  EXPECT_EQ(spec.coverage, 0.0);
+  EXPECT_EQ(fvc_config(spec).entries, 64u);
+  EXPECT_EQ(fvc_config(spec).policy, FvcPolicy::kLfc);
+  EXPECT_EQ(fvc_config(spec).ways_per_set(), 64u);
+  EXPECT_EQ(fvc_config(spec).sample, 1u);
+  EXPECT_EQ(fvc_config(spec).period, 1u);
+  EXPECT_EQ(spec.share("coverage"), 0.0);
 }
 
 TEST(SchemeSpec, TakesEveryKeyOfTheFamily) {
   const SchemeSpec spec = good("hdcp:fvc=128,policy=2lfc,ways=8,sample=16,period=3,coverage=0.7");
-  EXPECT_EQ(spec.fvc.entries, 128u);
-  EXPECT_EQ(spec.fvc.policy, FvcPolicy::k2Lfc);
-  EXPECT_EQ(spec.fvc.ways_per_set(), 8u);
-  EXPECT_EQ(spec.fvc.sample, 16u);
-  EXPECT_EQ(spec.fvc.period, 3u);
-  EXPECT_EQ(spec.coverage, 0.7);
-  EXPECT_EQ(good("dcp:policy=lru").fvc.policy, FvcPolicy::kLru);
-  EXPECT_EQ(good("dcp:policy=random").fvc.policy, FvcPolicy::kRandom);
-  EXPECT_EQ(good("dcp:fvc=2").fvc.entries, 2u);
-  EXPECT_EQ(good("dcp:fvc=1024").fvc.entries, 1024u);
-  EXPECT_EQ(good("dcp:coverage=1").coverage, 1.0);
+  EXPECT_EQ(fvc_config(spec).entries, 128u);
+  EXPECT_EQ(fvc_config(spec).policy, FvcPolicy::k2Lfc);
+  EXPECT_EQ(fvc_config(spec).ways_per_set(), 8u);
+  EXPECT_EQ(fvc_config(spec).sample, 16u);
+  EXPECT_EQ(fvc_config(spec).period, 3u);
+  EXPECT_EQ(spec.share("coverage"), 0.7);
+  EXPECT_EQ(fvc_config(good("dcp:policy=lru")).policy, FvcPolicy::kLru);
+  EXPECT_EQ(fvc_config(good("dcp:policy=random")).policy, FvcPolicy::kRandom);
+  EXPECT_EQ(fvc_config(good("dcp:fvc=2")).entries, 2u);
+  EXPECT_EQ(fvc_config(good("dcp:fvc=1024")).entries, 1024u);
+  EXPECT_EQ(good("dcp:coverage=1").share("coverage"), 1.0);
 }
 
 TEST(SchemeSpec, TakesTheKeysOfRas) {
-  EXPECT_TRUE(good("ras:ycocg=1").ycocg);
-  EXPECT_FALSE(good("ras:ycocg=0").ycocg);
-  EXPECT_EQ(good("ras:sizes=2").ras_sizes, RasSizes::kTwo);
-  EXPECT_EQ(good("ras:sizes=3").ras_sizes, RasSizes::kThree);
-  EXPECT_EQ(good("ras:sizes=burst,ycocg=1").ras_sizes, RasSizes::kBurst);
+  EXPECT_EQ(good("ras:ycocg=1").number("ycocg"), 1u);
+  EXPECT_EQ(good("ras:ycocg=0").number("ycocg"), 0u);
+  EXPECT_EQ(static_cast<RasSizes>(good("ras:sizes=2").number("sizes")), RasSizes::kTwo);
+  EXPECT_EQ(static_cast<RasSizes>(good("ras:sizes=3").number("sizes")), RasSizes::kThree);
+  EXPECT_EQ(static_cast<RasSizes>(good("ras:sizes=burst,ycocg=1").number("sizes")), RasSizes::kBurst);
 }
 
 TEST(SchemeSpec, TakesTheKeysOfTheFurtherSchemes) {
-  EXPECT_EQ(good("palette").entries, 64u);
-  EXPECT_EQ(good("palette:from=first,entries=16").entries, 16u);
-  EXPECT_EQ(good("fbc:entries=1024").entries, 1024u);
-  EXPECT_EQ(good("bdi").order, LineOrder::kRaster);
-  EXPECT_EQ(good("bdi:order=quad").order, LineOrder::kQuad);
-  EXPECT_EQ(good("bpc:order=raster").order, LineOrder::kRaster);
+  EXPECT_EQ(good("palette").number("entries"), 64u);
+  EXPECT_EQ(good("palette:from=first,entries=16").number("entries"), 16u);
+  EXPECT_EQ(good("fbc:entries=1024").number("entries"), 1024u);
+  EXPECT_EQ(line_order(good("bdi")), LineOrder::kRaster);
+  EXPECT_EQ(line_order(good("bdi:order=quad")), LineOrder::kQuad);
+  EXPECT_EQ(line_order(good("bpc:order=raster")), LineOrder::kRaster);
 }
 
 TEST(SchemeSpec, AFullyAssociativeFvcIsOneConfigurationHoweverItIsWritten) {
-  EXPECT_EQ(good("dcp:ways=64").fvc, good("dcp").fvc);
-  EXPECT_FALSE(good("dcp:ways=32").fvc == good("dcp").fvc);
+  EXPECT_EQ(fvc_config(good("dcp:ways=64")), fvc_config(good("dcp")));
+  EXPECT_FALSE(fvc_config(good("dcp:ways=32")) == fvc_config(good("dcp")));
 }
 
 TEST(SchemeSpec, ErrorsNameTheFault) {
@@ -118,7 +123,7 @@ TEST(SchemeSpec, ErrorsNameTheFault) {
       {"fbc:from=first", "unknown key 'from'"},
       {"te:fvc=64", "unknown key 'fvc'"},
       {"bdi:order=tile", "order=tile: must be raster or quad"},
-      {"ras:sizes=4", "sizes=4: must be 2, 3 or burst"},
+      {"ras:sizes=4", "sizes=4: must be 3, 2 or burst"},
   };
   for (const auto& [text, named] : faults) {
     const std::string error = fault(text);

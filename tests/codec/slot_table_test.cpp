@@ -1,5 +1,5 @@
 // Slot table: what was put in is found, by itself and by the kernels of every target; nothing else is.
-#include "simd/slot_table.h"
+#include "dcp/slot_table.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,8 @@
 #include <unordered_map>
 
 #include "dcp/ccd.h"
-#include "simd/kernels.h"
-#include "surface_patterns.h"
-#include "tilepress/simd.h"
+#include "dcp/slot_kernels.h"
+#include "kernel_targets.h"
 
 using namespace tilepress;
 
@@ -44,7 +43,7 @@ void expect_agreement(const SlotTable& table, const std::unordered_map<uint32_t,
     std::array<uint16_t, kBlockPixels> indices;
     uint8_t widths[kSubBlocks], slots[kBlockPixels];
     SlotLookups lookups{&table, indices.data(), widths, &table, slots, {}};
-    const bool uniform = kernels().load_slots(raster, kBlockSide, traversed.data(), lookups);
+    const bool uniform = slot_kernels().load(raster, kBlockSide, traversed.data(), lookups);
     ASSERT_EQ(traversed, pixels);
     ASSERT_EQ(uniform, std::count(pixels.begin(), pixels.end(), pixels[0]) == kBlockPixels);
     if (uniform) continue;
@@ -57,13 +56,13 @@ void expect_agreement(const SlotTable& table, const std::unordered_map<uint32_t,
       ASSERT_EQ(lookups.found.begins >> i & 1, other);
     }
     uint8_t slots_alone[kBlockPixels];
-    const FoundSlots found = kernels().find_slots(pixels.data(), table, slots_alone);
+    const FoundSlots found = slot_kernels().find(pixels.data(), table, slots_alone);
     ASSERT_TRUE(std::ranges::equal(slots, slots_alone));
     ASSERT_EQ(found.known, lookups.found.known);
     ASSERT_EQ(found.begins, lookups.found.begins);
     indices.fill(1);
     std::ranges::fill(widths, 1);
-    kernels().index_slots(pixels.data(), table, indices.data(), widths);
+    slot_kernels().index(pixels.data(), table, indices.data(), widths);
     ASSERT_EQ(indices, wanted);
     for (uint32_t sub = 0; sub < kSubBlocks; ++sub)
       ASSERT_EQ(widths[sub], width_of(*std::max_element(&wanted[4 * sub], &wanted[4 * sub] + 4)));
@@ -113,6 +112,30 @@ TEST(SlotTable, FindsWhatItHolds) {
       if (dice.below(4) == 0) pixel = crowded[dice.below(64)];
     }
     ASSERT_NO_FATAL_FAILURE(expect_agreement(table, held, pixels)) << "step " << step;
+  }
+}
+
+TEST(SlotKernels, CountIsTheSameOnEveryTarget) {
+  patterns::Dice dice(12);
+  for (int round = 0; round < 1000 && !HasFatalFailure(); ++round) {
+    uint8_t slots[64];
+    for (uint8_t& slot : slots) slot = static_cast<uint8_t>(dice.below(1 + dice.below(64)));
+    const uint64_t wanted = uint64_t{dice.next()} << 32 | dice.next();
+    std::array<uint32_t, 64> counts{};
+    uint64_t left = wanted;  // slot by slot, four of them
+    for (int n = 0; n < 4 && left != 0; ++n) {
+      const uint8_t slot = slots[std::countr_zero(left)];
+      for (uint32_t i = 0; i < 64; ++i)
+        if ((left >> i & 1) != 0 && slots[i] == slot) {
+          ++counts[slot];
+          left &= ~(uint64_t{1} << i);
+        }
+    }
+    patterns::on_every_target([&] {
+      std::array<uint32_t, 64> other{};
+      ASSERT_EQ(slot_kernels().count(slots, wanted, other.data()), left);
+      ASSERT_EQ(other, counts);
+    });
   }
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "tilepress/scheme.h"
+
 namespace tilepress {
 namespace {
 
@@ -35,9 +37,10 @@ class Dump {
          "Compression rate without bursts", "Ratio");
     real(group + "rate", sizes.raw_bits > 0 ? sizes.rate() : NAN, "Compression rate: rawBits / movedBits",
          "Ratio");
-    if (sizes.vdcp_blocks + sizes.ras_blocks > 0) {
-      count(group + "vdcpBlocks", sizes.vdcp_blocks, "Blocks that the hybrid coded by VDCP", "Count");
-      count(group + "rasBlocks", sizes.ras_blocks, "Blocks that the hybrid coded by RAS", "Count");
+    const SchemeInfo* info = find_scheme(scheme.substr(0, scheme.find(':')));
+    if (info != nullptr && std::string_view(info->family) == "hybrid" && sizes.own[0] + sizes.own[1] > 0) {
+      count(group + "vdcpBlocks", sizes.own[0], "Blocks that the hybrid coded by VDCP", "Count");
+      count(group + "rasBlocks", sizes.own[1], "Blocks that the hybrid coded by RAS", "Count");
     }
   }
   std::string end() const { return text_ + kEnd; }

@@ -45,8 +45,7 @@ Section workloads_section(const Batch& batch) {
 }
 
 bool in_dcp_family(const std::string& scheme) {
-  const std::string family = scheme_family(scheme);
-  return family == "dcp" || family == "adcp" || family == "vdcp" || family == "huffdcp";
+  return scheme_family(scheme) == "dcp";
 }
 
 /// Rates of `schemes` per workload, in the order of the batch.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "tilepress/scheme.h"
+
 namespace tilepress {
 namespace {
 
@@ -73,7 +75,8 @@ std::string category_label(const std::string& category) {
 }
 
 std::string scheme_family(const std::string& scheme) {
-  return scheme.substr(0, scheme.find(':'));
+  const SchemeInfo* info = find_scheme(scheme.substr(0, scheme.find(':')));
+  return info != nullptr ? info->family : "";
 }
 
 std::string section_html(const Section& section) {

@@ -10,6 +10,7 @@
 
 #include "cdf_plot.h"
 #include "html_text.h"
+#include "page_parts.h"
 #include "run_batch.h"
 
 namespace tilepress {
@@ -166,9 +167,9 @@ RunSummary summarise_run(const RunRecord& run, const std::string& name, size_t p
   out.totals = run.totals;
   out.means = means_of(run.frames);
   for (size_t i = 0; i < out.schemes.size(); ++i)
-    if (out.vdcp_blocks + out.ras_blocks == 0) {
-      out.vdcp_blocks = out.totals[i].vdcp_blocks;
-      out.ras_blocks = out.totals[i].ras_blocks;
+    if (out.vdcp_blocks + out.ras_blocks == 0 && scheme_family(out.schemes[i]) == "hybrid") {
+      out.vdcp_blocks = out.totals[i].own[0];
+      out.ras_blocks = out.totals[i].own[1];
     }
 
   std::map<uint32_t, std::vector<const FrameStatistics*>> surfaces;

@@ -108,8 +108,8 @@ Section extra_section(const Batch& batch) {
 
 /// DCP's structures are the only ones the paper gives an energy for.
 bool has_dcp_structures(const std::string& scheme) {
-  const SchemeInfo* info = find_scheme(scheme_family(scheme));
-  return info != nullptr && info->takes_fvc_keys;
+  const SchemeInfo* info = find_scheme(scheme.substr(0, scheme.find(':')));
+  return info != nullptr && info->has_dcp_structures;
 }
 
 Section energy_section(const Batch& batch) {

@@ -9,8 +9,8 @@
 
 namespace tilepress {
 
-/// Most bits of one put() or get(): a get() must fit into the 64 bits read at a byte boundary, beside up to 7
-/// bits before it.
+/// Most bits of one put() or get(). A get() reads 64 bits at a byte boundary, and up to 7 of them lie before
+/// its own.
 constexpr uint32_t kMaxBitsPerCall = 57;
 
 namespace bit_io {
@@ -20,13 +20,13 @@ constexpr uint64_t big_endian(uint64_t word) {
 }
 }  // namespace bit_io
 
-/// Writes bits into a buffer the caller owns. Bits that do not fit are counted and lost: check overflowed().
+/// Writes bits into a buffer that the caller owns. Counts and drops bits that do not fit: check overflowed().
 class BitWriter {
  public:
   explicit BitWriter(std::span<uint8_t> buffer) : buffer_(buffer) {}
 
-  /// Appends the low `count` bits of `value`, highest first. count ≤ kMaxBitsPerCall; higher bits of value
-  /// are 0.
+  /// Appends the low `count` bits of `value`, highest first. count ≤ kMaxBitsPerCall, and the other bits are
+  /// 0.
   void put(uint64_t value, uint32_t count) {
     assert(count <= kMaxBitsPerCall && value >> count == 0);
     const uint32_t free = 64 - pending_;  // 1..64
@@ -44,30 +44,25 @@ class BitWriter {
     store(accumulator_ | value >> pending_);
     accumulator_ = pending_ == 0 ? 0 : value << (64 - pending_);
   }
-  /// The next `bytes` bytes, for who writes bits there himself and tells by wrote(); null if bits are held
-  /// back or so many bytes do not fit.
+  /// Returns the next `bytes` bytes, for callers that write the bits themselves and report the count with
+  /// wrote(). Returns null if bits are held back or the bytes do not fit.
   uint8_t* at_byte(size_t bytes) {
     const bool fit = position_ <= buffer_.size() && bytes <= buffer_.size() - position_;
     return pending_ == 0 && fit ? buffer_.data() + position_ : nullptr;
   }
-  /// `bits` bits from the byte at_byte() gave are there; the rest of their last byte is 0.
+  /// Appends `bits` bits that the caller wrote to at_byte(). The rest of their last byte is 0.
   void wrote(uint64_t bits) {
     position_ += bits / 8;
     pending_ = static_cast<uint32_t>(bits % 8);
     accumulator_ = pending_ == 0 ? 0 : uint64_t{buffer_[position_]} << 56;
   }
-  /// Appends `count` one-bits followed by a zero-bit.
-  void put_unary(uint32_t count) {
-    for (; count >= 32; count -= 32) put(0xFFFFFFFFu, 32);
-    put((uint64_t{1} << (count + 1)) - 2, count + 1);
-  }
-  /// Appends zero-bits until `bits` are written in all.
+  /// Appends zero-bits up to `bits` bits in total.
   void pad_to(uint64_t bits) {
     for (uint64_t now = bit_count(); now < bits; now = bit_count())
       put(0, static_cast<uint32_t>(bits - now < 32 ? bits - now : 32));
   }
-  /// Writes out what is still held back, the last byte zero-filled; up to seven bytes behind it, within the
-  /// buffer, may become zero. Call once, after the last put().
+  /// Stores the bits still held back and fills the last byte with zeros. May set up to seven bytes behind it
+  /// to zero, within the buffer. Call it once, after the last put().
   void flush() {
     if (pending_ > 0) store(accumulator_);
     if (pending_ > 0) position_ -= 8;
@@ -87,26 +82,26 @@ class BitWriter {
     position_ += 8;
   }
   std::span<uint8_t> buffer_;
-  size_t position_ = 0;       ///< bytes stored, or lost
-  uint64_t accumulator_ = 0;  ///< bits not stored yet, from the top
+  size_t position_ = 0;       ///< bytes stored or dropped
+  uint64_t accumulator_ = 0;  ///< bits not stored yet, from the top bit down
   uint32_t pending_ = 0;      ///< their number, 0..63
 };
 
-/// Reads what BitWriter wrote. Past the end it returns zero-bits and remembers: check overran().
+/// Reads what BitWriter wrote. Returns zero-bits past the end: check overran().
 class BitReader {
  public:
   explicit BitReader(std::span<const uint8_t> buffer) : BitReader(buffer, uint64_t{buffer.size()} * 8) {}
   BitReader(std::span<const uint8_t> buffer, uint64_t bit_count)
       : buffer_(buffer), end_(bit_count < buffer.size() * 8 ? bit_count : buffer.size() * 8) {}
 
-  /// Next `count` bits, highest first. count ≤ kMaxBitsPerCall.
+  /// Returns the next `count` bits, highest first. count ≤ kMaxBitsPerCall.
   uint64_t get(uint32_t count) {
     assert(count <= kMaxBitsPerCall);
     const uint64_t window = peek();
     position_ += count;
     return count == 0 ? 0 : window >> (64 - count);
   }
-  /// Next 64 bits, highest first.
+  /// Returns the next 64 bits, highest first.
   uint64_t get64() {
     const uint64_t byte = position_ >> 3;
     if (byte + 9 > buffer_.size() || position_ + 64 > end_) {
@@ -119,13 +114,13 @@ class BitReader {
     position_ += 64;
     return bit_io::big_endian(word) << used | buffer_[byte + 8] >> (8 - used);
   }
-  /// Number of one-bits before the next zero-bit, which is consumed; gives up and returns more than `limit`
-  /// past that many.
+  /// Consumes one-bits and the next zero-bit, and returns the number of one-bits. Stops early after more than
+  /// `limit` one-bits.
   uint32_t get_unary(uint32_t limit) {
     uint32_t count = 0;
     for (;;) {
       const auto ones =
-          static_cast<uint32_t>(std::countl_one(peek() | 0x7F));  // 57 bits are sure to be there
+          static_cast<uint32_t>(std::countl_one(peek() | 0x7F));  // peek() returns at least 57 bits
       if (ones < kMaxBitsPerCall) {
         position_ += ones + 1;
         return count + ones;
@@ -136,15 +131,15 @@ class BitReader {
     }
   }
   void skip(uint64_t count) { position_ += count; }
-  /// The next `bytes` bytes, not consumed; null if they do not begin with a byte or are not all there.
+  /// Returns the next `bytes` bytes without consuming them. Returns null if they do not begin at a byte or
+  /// are not all there.
   const uint8_t* at_byte(size_t bytes) const {
     const bool there = position_ % 8 == 0 && position_ <= end_ && bytes * 8 <= end_ - position_;
     return there ? buffer_.data() + position_ / 8 : nullptr;
   }
   uint64_t position() const { return position_; }
   bool overran() const { return position_ > end_; }
-  /// The bits from here on, at the top of the word: at least 57 of them, zeros past the end. Not
-  /// consumed.
+  /// Returns the next 57 bits or more at the top of a word, zeros past the end, without consuming them.
   uint64_t peek() const {
     const uint64_t byte = position_ >> 3;
     uint64_t word = 0;

@@ -1,4 +1,4 @@
-// Block: the 8×8 pixels that are written to memory as one unit, and the order in which its pixels are visited.
+// Block: the 8×8 pixels that go to memory as one unit, and the order of its pixels.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@ namespace tilepress {
 constexpr uint32_t kBlockSide = 8;
 constexpr uint32_t kBlockPixels = 64;
 constexpr uint32_t kSubBlockSide = 2;
-constexpr uint32_t kSubBlocks = 16;       ///< sub-blocks of a block
+constexpr uint32_t kSubBlocks = 16;  ///< sub-blocks of a block
 constexpr uint32_t kSubBlockPixels = 4;
 constexpr uint32_t kMaxRawBlockBits = 2048;  ///< 64 pixels of 32 bits
 
@@ -19,8 +19,8 @@ struct Block {
   bool operator==(const Block&) const = default;
 };
 
-/// Raster position of the i-th pixel in traversal order: 2×2 sub-blocks in raster order, pixels of a
-/// sub-block in raster order (spec: traversal). Sub-block s holds traversal positions 4s … 4s+3.
+/// Returns the raster position of each pixel in traversal order (spec §2): 2×2 sub-blocks in raster order,
+/// and the pixels of a sub-block in raster order. Sub-block s has traversal positions 4s … 4s+3.
 constexpr std::array<uint8_t, kBlockPixels> make_traversal() {
   std::array<uint8_t, kBlockPixels> order{};
   for (uint32_t i = 0; i < kBlockPixels; ++i) {

@@ -14,16 +14,16 @@ struct ColorCount {
   uint64_t count;  ///< pixels inside the surface
 };
 
-/// Every colour of the frame, the most frequent first; ties in the order of color_text.
+/// Returns every colour of the frame, the most frequent first. Ties are in the order of color_text.
 /// Precondition: a modelled format.
 std::vector<ColorCount> color_counts(const SurfaceView& frame);
 
-/// "#RRGGBBAA". Channels narrower than 8 bits are widened by repeating their high bits, absent alpha is FF;
-/// RGB10A2 has three digits a colour channel and one of alpha, "#RRRGGGBBBA", its plain values.
+/// Returns "#RRGGBBAA". Channels narrower than 8 bits are widened by repeating their high bits; absent alpha
+/// is FF. RGB10A2 returns its plain values "#RRRGGGBBBA": three digits per colour channel and one for alpha.
 std::string color_text(uint32_t color, PixelFormat format);
 
-/// CSV: frame,surface,rank,color,count,cumulative. Ranks from 1; cumulative is the share of the frame's
-/// pixels in this and all more frequent colours, 1 in the last row.
+/// CSV columns: frame,surface,rank,color,count,cumulative. Ranks begin at 1. `cumulative` is the share of the
+/// frame's pixels that this and all more frequent colours cover; it is 1 in the last row.
 std::string color_cdf_header();
 void append_color_cdf(uint64_t frame, uint32_t surface, PixelFormat format,
                       const std::vector<ColorCount>& counts, std::string& out);

@@ -5,19 +5,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
-#include <string>
 #include <vector>
 
 #include "tilepress/block.h"
 #include "tilepress/pixel_format.h"
 #include "tilepress/scheme_spec.h"
-#include "tilepress/surface_engine.h"
 
 namespace tilepress {
 
 constexpr size_t kCacheLineBytes = 64;
 
-/// Memory from the beginning of a cache line on, so that a slot takes no line more than it fills.
+/// Allocates whole cache lines, so that a slot touches no more lines than it fills.
 template <typename T>
 struct LineAllocator {
   using value_type = T;
@@ -31,9 +29,9 @@ struct LineAllocator {
 };
 
 /// Blocks lie at fixed slots of S0 bytes, the size of a raw block, in raster order: block (bx, by) has number
-/// by · blocks_x + bx. A block uses the first payload bits of its slot; the rest stays empty. CSB and tables
-/// are bit strings, the most significant bit of a byte first, without gaps between blocks.
-/// Filled by SurfaceEngine::process; read by SurfaceReader.
+/// by · blocks_x + bx. A block fills the first bits of its slot; the rest stays empty. CSB and tables are bit
+/// strings, the most significant bit of a byte first, without gaps between blocks. SurfaceEngine::process
+/// fills a surface; SurfaceReader reads it.
 struct CompressedSurface {
   SchemeSpec scheme;
   PixelFormat format = PixelFormat::kRgba8;
@@ -48,22 +46,21 @@ struct CompressedSurface {
   std::vector<uint8_t> csb;                              ///< ceil(blocks() · csb_bits / 8)
   std::vector<uint8_t> tables;                           ///< ceil(table_bits / 8)
 
-  /// Payload bits of each block: bookkeeping of the encoder for files and statistics. No part of the memory
-  /// image: the reader finds sizes from CSB and payload.
+  /// Payload bits of each block, which the encoder notes for files and statistics. They are not part of the
+  /// memory image: the reader finds sizes from CSB and payload.
   std::vector<uint16_t> block_bits;
 
-  /// False and one line in `error` if a size, the format or a model parameter is out of its range. Only where
-  /// this holds may the numbers below be asked for.
-  bool possible(std::string& error) const;
-  /// possible(), and payload, CSB and tables have the lengths that follow; else false and one line in
-  /// `error`.
-  bool consistent(std::string& error) const;
+  /// Checks that sizes, format and model parameters are within their ranges. The functions below require
+  /// that.
+  Result<void> possible() const;
+  /// Checks possible(), and that payload, CSB and tables have the lengths that follow.
+  Result<void> consistent() const;
 
   uint32_t blocks_x() const { return (width + kBlockSide - 1) / kBlockSide; }
   uint32_t blocks_y() const { return (height + kBlockSide - 1) / kBlockSide; }
   uint64_t blocks() const { return uint64_t{blocks_x()} * blocks_y(); }
   uint32_t raw_block_bits() const { return kBlockPixels * traits(format).pixel_bits; }
-  /// Bursts that a raw block takes.
+  /// Bursts of a raw block.
   uint32_t raw_block_bursts() const { return (raw_block_bits() + burst_bits - 1) / burst_bits; }
   /// S0: a raw block in whole bursts; 256 bytes for 32-bit pixels.
   uint32_t slot_bytes() const { return raw_block_bursts() * burst_bits / 8; }

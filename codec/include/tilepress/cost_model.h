@@ -15,7 +15,7 @@ struct StructureFigures {
   double mpixels_per_s;  ///< largest bandwidth, million pixels a second
 };
 
-/// What the model rests on. The defaults are the paper's.
+/// The constants of the model. The defaults are the paper's.
 struct CostConstants {
   double dram_pj_per_byte = 451.2;       ///< LPDDR3, dynamic; per byte moved
   double structures_pj_per_byte = 4.83;  ///< DCP's structures, static and dynamic; per raw byte
@@ -25,12 +25,12 @@ struct CostConstants {
   StructureFigures rccd{0.000281592, 0.281112, 0.104106, 0.0722227, 13203};
 };
 
-/// Share of the DRAM energy saved at a rate (raw / moved bits, > 0): 1 − 1/rate − structures/DRAM. Negative
-/// where compression costs more than it saves. The paper names the structures' energy for DCP only; for other
-/// schemes it stands in for logic that nobody has measured.
+/// Returns the share of DRAM energy saved at a rate (raw / moved bits, > 0): 1 − 1/rate − structures/DRAM.
+/// The share is negative if compression costs more than it saves. The paper states the structures' energy for
+/// DCP only.
 double energy_saving(double rate, const CostConstants& constants = {});
 
-/// A surface that is written and read again and again.
+/// The traffic of a surface that is written and read in every refresh.
 struct SurfaceLoad {
   uint32_t width = 1920, height = 1080;
   uint32_t pixel_bits = 32;
@@ -44,26 +44,28 @@ struct SurfaceLoad {
 /// Returns the dynamic DRAM power of moving `bytes_per_s`, in mW. The paper's 199.6 mW is the power of its own
 /// display: 720×1280 RGBA8, written and read 60 times a second, 442.37 MB/s.
 double dram_power_mw(double bytes_per_s, const CostConstants& constants = {});
-/// Power of DRAM and structures when `raw_bytes_per_s` shrink by `rate`, mW.
+/// Returns the power of DRAM and structures if `raw_bytes_per_s` shrink by `rate`, in mW.
 double compressed_power_mw(double raw_bytes_per_s, double rate, const CostConstants& constants = {});
 
-/// Storage of an FVC, bits: a colour, a valid bit and a counter of ceil(log2(frame pixels)) bits an entry.
+/// Returns the bits of an FVC: per entry a colour, a valid bit and a counter of ceil(log2(frame pixels))
+/// bits.
 uint64_t fvc_storage_bits(uint32_t entries, uint32_t pixel_bits, uint64_t frame_pixels);
-/// Storage of a CCD or of one rCCD, bits: a colour and a valid bit an entry.
+/// Returns the bits of a CCD or of one rCCD: per entry a colour and a valid bit.
 uint64_t ccd_storage_bits(uint32_t entries, uint32_t pixel_bits);
 
-/// Area of one FVC, one CCD and an rCCD for each surface read at once, mm². For other than 64 entries a
-/// linear extrapolation, entries / 64: an estimate, no CACTI run.
+/// Returns the area of one FVC, one CCD and one rCCD per surface that is read at once, in mm². Sizes other
+/// than 64 entries are scaled by entries / 64: an estimate, not a CACTI run.
 double structures_area_mm2(uint32_t entries, uint32_t surfaces, const CostConstants& constants = {});
 
-/// Can the structures keep up? Million pixels a second, needed beside what CACTI gives for 64 entries.
+/// Whether the structures keep up: million pixels per second needed, against CACTI's bandwidth for 64
+/// entries.
 struct BandwidthCheck {
   double fvc_needed, ccd_needed, rccd_needed;
   bool fvc_suffices, ccd_suffices, rccd_suffices;
   bool suffices() const { return fvc_suffices && ccd_suffices && rccd_suffices; }
 };
-/// Every pixel written is looked up in the CCD, every sample-th enters the FVC; every pixel read passes the
-/// rCCD of its surface.
+/// The CCD looks up every pixel written, the FVC takes every sample-th, and the rCCD of a surface restores
+/// every pixel read.
 BandwidthCheck check_bandwidth(const SurfaceLoad& load, uint32_t sample, const CostConstants& constants = {});
 
 }  // namespace tilepress

@@ -9,23 +9,23 @@
 
 namespace tilepress {
 
-/// The canonical form of a frame on which everything else works: swizzled to pixel words, alpha forced to 255
-/// where the format has none, and padded to a multiple of 8 in both directions by repeating the nearest pixel
-/// inside the surface (spec §2). A copy, re-used from frame to frame: no allocation while the size stays.
+/// A frame in the form that schemes work on: pixel words with alpha 255 where the format has none, padded to
+/// a multiple of 8 in both directions by the nearest pixel inside the surface (spec §2). Frames of one size
+/// re-use the memory.
 class PixelPlane {
  public:
-  /// Takes a copy of `view`. 16-bit pixels are stored one per word. Returns how many pixels differ from those
-  /// it held before; of no meaning if that was a frame of another size or format, one referred to, or none.
-  /// Precondition: 1 ≤ width, height ≤ kMaxSurfaceSide and a modelled format.
+  /// Copies `view`, one pixel per word. Returns how many pixels changed. That number has no meaning unless
+  /// the plane held a copy of a frame of the same size and format. Precondition: 1 ≤ width, height ≤
+  /// kMaxSurfaceSide and a modelled format.
   uint64_t assign(const SurfaceView& view);
-  /// The same in steps: takes on the shape of `view`; then its rows, in ranges that begin and end at a
-  /// multiple of 8 or at the bottom of the padded plane. Where a pixel of a block changes, its byte of
-  /// `changed_blocks` (raster order; null: not wanted) becomes other than 0.
+  /// The same in steps: reshape() takes the size and format, assign_rows() a range of rows. A range begins
+  /// and ends at a multiple of 8 or at the bottom of the padded plane. If a pixel of a block changes, the
+  /// block's byte of `changed_blocks` becomes other than 0 (raster order; null: not wanted).
   void reshape(const SurfaceView& view);
   uint64_t assign_rows(const SurfaceView& view, uint32_t begin, uint32_t end,
                        uint8_t* changed_blocks = nullptr);
-  /// Stands for `view`, which must outlive that, without a copy, if its rows are pixel words and whole blocks
-  /// as they lie. False, and nothing happened, if not.
+  /// Refers to `view` without a copy, and returns true, if its rows are pixel words in whole blocks. Else
+  /// changes nothing. `view` must outlive the use of the plane.
   bool refer_to(const SurfaceView& view);
 
   uint32_t width() const { return width_; }
@@ -40,7 +40,7 @@ class PixelPlane {
     return (referred_ != nullptr ? referred_ : words_.data()) + size_t{y} * stride_;
   }
 
-  /// Copies block (bx, by) out.
+  /// Copies block (bx, by) to `out`.
   void load_block(uint32_t bx, uint32_t by, Block& out) const;
   bool has_shape_of(const SurfaceView& view) const {
     return width_ == view.width && height_ == view.height && format_ == view.format;

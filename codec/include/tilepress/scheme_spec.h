@@ -1,54 +1,44 @@
-// Scheme specifications: `name:key=value,key=value`, parsed and checked against the registry.
+// Scheme specifications: `name:key=value,key=value`, parsed and checked against the scheme's key table.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
+
+#include "tilepress/result.h"
 
 namespace tilepress {
 
-/// FVC replacement policy (paper §Factors affecting FVC Fidelity; spec §3).
-enum class FvcPolicy : uint8_t { kLfc, k2Lfc, kLru, kRandom };
+/// A key's value: a number or the position of a choice, a share from 0 to 1, or the numbers of a file.
+using SchemeValue = std::variant<uint32_t, double, std::vector<uint32_t>>;
 
-/// Everything that decides what an FVC collects. Schemes with equal configurations share one FVC and one CCD.
-struct FvcConfig {
-  uint32_t entries = 64;  ///< a power of two, 2..1024
-  FvcPolicy policy = FvcPolicy::kLfc;
-  uint32_t ways = 0;    ///< divides entries; 0 = fully associative
-  uint32_t sample = 1;  ///< every sample-th pixel enters the FVC, ≥ 1
-  uint32_t period = 1;  ///< the FVC collects in every period-th frame, ≥ 1
-  bool operator==(const FvcConfig&) const = default;
-  uint32_t ways_per_set() const { return ways == 0 ? entries : ways; }
-};
-
-enum class RasSizes : uint8_t { kThree, kTwo, kBurst };
-
-/// Order in which a block's pixels fill memory lines.
-enum class LineOrder : uint8_t { kRaster, kQuad };
-
-/// A scheme with its options. `text` is the specification as the user wrote it and names the scheme in every
-/// output.
+/// A scheme with its options.
 struct SchemeSpec {
-  std::string text;
+  std::string text;  ///< as the user wrote it; names the scheme in every output
   std::string name;  ///< the part before ':', a name of the registry
-  FvcConfig fvc;
-  double coverage = 0;  ///< DCP is off for frames whose CCD came from an FVC with a lower coverage; 0..1
-  bool ycocg = false;
-  RasSizes ras_sizes = RasSizes::kThree;
-  uint32_t entries = 64;                 ///< palette, fbc: slots of the dictionary, a power of two, 2..1024
-  std::vector<uint32_t> palette;         ///< of palette:file=…, RGBA8 words; empty = from the first frame
-  LineOrder order = LineOrder::kRaster;  ///< bdi, bpc
+  /// One per key of the scheme's table, in its order. A key that the text does not name has its default.
+  std::vector<std::pair<std::string_view, SchemeValue>> values;
+
+  // Precondition: the scheme's table has the key, with a value of this type.
+  uint32_t number(std::string_view key) const { return std::get<uint32_t>(value(key)); }
+  double share(std::string_view key) const { return std::get<double>(value(key)); }
+  const std::vector<uint32_t>& list(std::string_view key) const {
+    return std::get<std::vector<uint32_t>>(value(key));
+  }
+
+ private:
+  const SchemeValue& value(std::string_view key) const;
 };
 
-/// What palette:file=PATH does: read the colours, or take the path as it is. Who only decodes needs no
-/// colours, since a frame's tables hold them, and should open no file that somebody else named.
-enum class PaletteFiles : uint8_t { kRead, kLeave };
+/// What a key that names a file does: read the file, or keep nothing of it. A decoder needs only the frame's
+/// own tables and must not open a file that someone else named.
+enum class SchemeFiles : uint8_t { kRead, kLeave };
 
-/// Parses one specification. On failure returns nothing and sets `error` to one line that names the fault.
-std::optional<SchemeSpec> parse_scheme(std::string_view text, std::string& error,
-                                       PaletteFiles files = PaletteFiles::kRead);
+/// Parses one specification.
+Result<SchemeSpec> parse_scheme(std::string_view text, SchemeFiles files = SchemeFiles::kRead);
 
 /// The seven schemes of the paper, in the order of spec §12.
 std::vector<SchemeSpec> default_schemes();

@@ -1,4 +1,4 @@
-// SIMD targets: which instruction set the kernels use. Every target gives the same bits.
+// SIMD targets: the instruction set that the kernels use. Every target returns the same bits.
 #pragma once
 
 #include <string_view>
@@ -6,12 +6,12 @@
 
 namespace tilepress {
 
-/// Names of the targets this machine can run, best first; the last is "scalar", the plain definition.
+/// Returns the targets that this machine runs, the best first; the last is "scalar", the plain definition.
 std::vector<std::string_view> simd_targets();
-/// The target in use: the best one unless forced.
+/// Returns the target in use: the best one unless forced.
 std::string_view simd_target();
-/// Uses `name` from now on, in engines opened later. False: no such target on this machine.
-/// Not thread-safe; call it before engines are made.
+/// Engines made from now on use `name`. Returns false if this machine has no such target. Not thread-safe:
+/// call it before engines are made.
 bool force_simd_target(std::string_view name);
 
 }  // namespace tilepress

@@ -1,6 +1,7 @@
-// Statistics: what a frame gives, per surface and per scheme, and their sums over a run.
+// Statistics: the figures of a frame, per surface and per scheme, and their sums over a run.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -21,36 +22,37 @@ struct FrameMetrics {
   double top100_coverage = 0;        ///< 0..1
 };
 
-/// What one scheme made of one frame, or, summed, of many (spec §7). All sizes in bits.
+constexpr size_t kOwnCounts = 4;
+using OwnCounts = std::array<uint64_t, kOwnCounts>;
+
+/// The figures of one scheme for one frame, or summed over frames (spec §7). All sizes are in bits.
 struct SchemeStatistics {
   uint64_t blocks = 0;
   uint64_t raw_bits = 0;
   uint64_t payload_bits = 0;
   uint64_t bursts = 0;
-  uint64_t burst_bits = 128;  ///< size of one burst; equal over a run
+  uint64_t burst_bits = 128;  ///< size of one burst; the same over a run
   uint64_t csb_bits = 0;
   uint64_t palette_bits = 0;
-  uint64_t extra_bits = 0;      ///< further traffic that a scheme causes (a second pass, checksums)
-  uint64_t vdcp_blocks = 0;     ///< hdcp only: blocks coded by VDCP
-  uint64_t ras_blocks = 0;      ///< hdcp only: blocks coded by RAS
+  uint64_t extra_bits = 0;      ///< further traffic: a second pass, checksums
+  OwnCounts own{};              ///< what SchemeInfo::columns names
   uint64_t checked_blocks = 0;  ///< --verify: blocks encoded, decoded and compared
   uint64_t mismatched_blocks = 0;
 
   uint64_t moved_bits() const { return bursts * burst_bits + csb_bits + palette_bits; }
   /// raw / (payload + CSB): the paper's first comparison, no bursts.
   double rate_payload() const;
-  /// raw / moved: what DRAM moves.
+  /// raw / moved: the rate of DRAM traffic.
   double rate() const;
-  /// raw / (moved + extra): equal to rate() for schemes without further traffic.
+  /// raw / (moved + extra): the same as rate() for schemes without further traffic.
   double rate_with_extra() const;
   SchemeStatistics& operator+=(const SchemeStatistics& other);
-  /// Adds the figures that blocks add one by one, `times` over.
+  /// Adds the figures of a block `times` times.
   void add(const SchemeStatistics& block, uint64_t times) {
     payload_bits += block.payload_bits * times;
     bursts += block.bursts * times;
     extra_bits += block.extra_bits * times;
-    vdcp_blocks += block.vdcp_blocks * times;
-    ras_blocks += block.ras_blocks * times;
+    for (size_t i = 0; i < own.size(); ++i) own[i] += block.own[i] * times;
     checked_blocks += block.checked_blocks * times;
     mismatched_blocks += block.mismatched_blocks * times;
   }
@@ -64,8 +66,8 @@ struct FrameStatistics {
   PixelFormat format = PixelFormat::kRgba8;
   bool warmup = false;
   uint64_t time_ns = 0;      ///< when the frame was presented, since the run began
-  uint64_t readback_ns = 0;  ///< time the program's thread spent in capturing
-  uint64_t encode_ns = 0;    ///< time the engine spent on the frame
+  uint64_t readback_ns = 0;  ///< time of the capture in the program's thread
+  uint64_t encode_ns = 0;    ///< time of the engine
   FrameMetrics metrics;
   std::vector<SchemeStatistics> schemes;  ///< in the order the schemes were given
 };
@@ -74,12 +76,12 @@ struct FrameStatistics {
 std::string frames_csv_header();
 std::string schemes_csv_header();
 void append_frames_row(const FrameStatistics& frame, std::string& out);
-/// One row per scheme; scheme_names[i] names frame.schemes[i].
+/// One row per scheme; scheme_names[i] is the specification of frame.schemes[i].
 void append_schemes_rows(const FrameStatistics& frame, const std::vector<std::string>& scheme_names,
                          std::string& out);
-/// Quotes a field where RFC 4180 needs it.
+/// Quotes a field if RFC 4180 requires it.
 std::string csv_field(std::string_view text);
-/// Shortest decimal that reads back as the same double; '.' as decimal point whatever the locale.
+/// Returns the shortest decimal that reads back as the same double. The decimal point is '.' in every locale.
 std::string csv_number(double value);
 
 }  // namespace tilepress

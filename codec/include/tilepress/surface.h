@@ -1,4 +1,4 @@
-// Surface view: the pixels of one frame where they lie, without owning them.
+// Surface view: the pixels of one frame in the caller's memory.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@ namespace tilepress {
 /// Order of the four bytes of an 8-bit-per-channel pixel in memory. Formats of other depths use kNative.
 enum class ByteOrder : uint8_t { kRgba, kBgra, kNative = kRgba };
 
-/// A frame in memory. `top_row` is the first byte of the TOP row of the picture and `pitch_bytes` leads from a
-/// row to the one below it: negative for buffers stored bottom-up, as glReadPixels fills them.
-/// Not owned; must stay valid and unchanged for the call it is passed to.
+/// A frame in memory. `top_row` is the first byte of the TOP row of the picture. `pitch_bytes` leads from a
+/// row to the row below: negative for buffers stored bottom-up, as glReadPixels fills them. The view does not
+/// own the memory, which must stay valid and unchanged during a call.
 struct SurfaceView {
   const std::byte* top_row = nullptr;
   ptrdiff_t pitch_bytes = 0;

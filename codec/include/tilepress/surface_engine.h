@@ -1,4 +1,4 @@
-// Surface engine: feeds the frames of one surface through the tiler, the schemes and the DRAM model.
+// Surface engine: passes the frames of one surface through the tiler, the schemes and the DRAM model.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "tilepress/model_options.h"
 #include "tilepress/scheme_spec.h"
 #include "tilepress/statistics.h"
 #include "tilepress/surface.h"
@@ -14,24 +15,16 @@ namespace tilepress {
 
 struct CompressedSurface;
 
-/// The modelled hardware.
-struct ModelOptions {
-  uint32_t tile_side = 32;    ///< render tile, pixels; a multiple of 8, 8..4096
-  uint32_t burst_bits = 128;  ///< DRAM transfer unit; a power of two, 16..2048
-  bool verify = false;        ///< encode, decode and compare every block of every frame
-  bool frame_metrics = true;  ///< off: FrameStatistics::metrics stays zero
-};
-
-/// Payload bits of each block of a frame, what a heat map shows.
+/// Payload bits of each block of a frame, for heat maps.
 struct BlockBits {
   uint32_t blocks_x = 0, blocks_y = 0;
   uint32_t raw_bits = 0;                       ///< of a block that is not compressed
-  std::vector<std::vector<uint16_t>> schemes;  ///< in their order; blocks in raster order
+  std::vector<std::vector<uint16_t>> schemes;  ///< in the order of the schemes; blocks in raster order
 };
 
-/// State of one surface: the frame before, and one FVC and one CCD per FVC configuration in use.
-/// A surface is a buffer with a size and a pixel format (spec §1): a buffer of another shape is another
-/// surface and needs an engine of its own. Not thread-safe; engines are independent of each other.
+/// Holds the state of one surface: the frame before, and one FVC and one CCD per FVC configuration in use. A
+/// surface is a buffer with a size and a pixel format (spec §1). A buffer of another shape needs an engine of
+/// its own. Not thread-safe; engines are independent of each other.
 class SurfaceEngine {
  public:
   SurfaceEngine(const std::vector<SchemeSpec>& schemes, const ModelOptions& options);
@@ -40,31 +33,31 @@ class SurfaceEngine {
   SurfaceEngine& operator=(SurfaceEngine&&) noexcept;
 
   /// Processes the surface's next frame. Fills width, height, format, warmup, encode_ns, metrics and schemes
-  /// of `out`; leaves frame, surface, time_ns and readback_ns as they are. The vectors of `out` are re-used.
-  /// Precondition: a modelled format, and the shape of the frames before.
+  /// of `out`, and leaves the other members. Re-uses the vectors of `out`. Precondition: a modelled format,
+  /// and the shape of the frames before.
   void process(const SurfaceView& frame, FrameStatistics& out);
-  /// The same, and stores the frame as each scheme leaves it in memory: one surface per scheme, in their
-  /// order.
+  /// The same, and stores the frame as each scheme leaves it in memory: one surface per scheme, in order.
   void process(const SurfaceView& frame, FrameStatistics& out, std::span<CompressedSurface> surfaces);
 
-  /// process() in steps, between which the caller may do other things, or go on in another thread: begin(),
-  /// then advance() until it returns false, when `out` is complete. Until then what was passed to begin()
-  /// must live. encode_ns is the time spent in the steps.
+  /// process() in steps: call begin(), then advance() until it returns false; `out` is complete then. Each
+  /// step may run in another thread. The arguments of begin() must live until the last step. encode_ns sums
+  /// the time of the steps.
   void begin(const SurfaceView& frame, FrameStatistics& out, std::span<CompressedSurface> surfaces = {});
-  /// Takes the next row of render tiles. begin() itself does no work.
+  /// Processes the next row of render tiles. begin() itself does no work.
   bool advance();
 
-  /// From the next frame on also fills `bits`, which must outlive it; null ends that.
+  /// Also fills `bits` from the next frame on; null ends that. `bits` must outlive its use.
   void note_block_bits(BlockBits* bits);
 
-  /// Number of frames processed, or the last seek() and the frames since.
+  /// Returns the number of the next frame: the frames processed, or the last seek() and the frames since.
   uint64_t frames() const;
 
-  /// The frames that frame `ordinal` of the surface depends on, ascending: processed in this order, each
-  /// after a seek() to its number, they leave an engine as if it had seen all frames before `ordinal`. This
-  /// is how a sequence is cut into parts that run at once; what the repeated frames give is thrown away.
+  /// Returns the frames that frame `ordinal` of the surface depends on, ascending. Process them in this
+  /// order, each after a seek() to its number: the engine is then as if it had seen all frames before
+  /// `ordinal`. That way parts of a sequence run at the same time; callers drop the figures of the repeated
+  /// frames.
   std::vector<uint64_t> history(uint64_t ordinal, PixelFormat format);
-  /// The next frame is number `ordinal` of the surface.
+  /// Makes the next frame number `ordinal` of the surface.
   void seek(uint64_t ordinal);
 
  private:

@@ -14,7 +14,6 @@ namespace {
 /// Every scheme of the registry whose frames are complete, and the options that change what memory holds.
 std::vector<std::string> all_schemes() {
   std::vector<std::string> schemes;
-  std::string error;
   for (const SchemeInfo& info : scheme_registry())
     if (!info.needs_frame_before) schemes.push_back(info.name);
   for (const char* text :
@@ -41,8 +40,7 @@ TEST_P(EverySchemeTest, SequentialReadGivesEveryPixelOfEveryShapeAndFormat) {
       for (const auto& frames : {std::vector{frame}, std::vector{before, frame}}) {
         const CompressedSurface surface = compress(GetParam(), frames, {});
         SurfaceReader reader;
-        std::string error;
-        ASSERT_TRUE(reader.open(surface, {}, error)) << error;
+        ASSERT_TRUE(reader.open(surface, {}));
         std::vector<uint32_t> words;
         ASSERT_TRUE(reader.read_rect({0, 0, shape.width, shape.height}, words));
         EXPECT_EQ(words, frame.words) << shape.width << "x" << shape.height << " " << traits(format).name;
@@ -54,8 +52,7 @@ TEST_P(EverySchemeTest, RandomRectanglesAndPixelsEqualTheSequentialRead) {
   const auto frame = mixed_frame(67, 129, PixelFormat::kRgba8, 3);
   const CompressedSurface surface = compress(GetParam(), {frame, frame}, {});
   SurfaceReader reader;
-  std::string error;
-  ASSERT_TRUE(reader.open(surface, {.csb_lines = 2, .csb_line_bursts = 1}, error)) << error;
+  ASSERT_TRUE(reader.open(surface, {.csb_lines = 2, .csb_line_bursts = 1}));
   std::mt19937 random(5);
   std::vector<uint32_t> words;
   for (int i = 0; i < 200; ++i) {
@@ -82,8 +79,7 @@ TEST_P(EverySchemeTest, TheReaderFetchesTheBurstsThatTheEngineCounted) {
       const CompressedSurface surface =
           compress(GetParam(), {frame, frame}, {.burst_bits = burst_bits}, &statistics);
       SurfaceReader reader;
-      std::string error;
-      ASSERT_TRUE(reader.open(surface, {}, error)) << error;
+      ASSERT_TRUE(reader.open(surface, {}));
       std::vector<uint32_t> words;
       ASSERT_TRUE(reader.read_rect({0, 0, 67, 33}, words));
       EXPECT_EQ(reader.traffic().blocks, statistics.blocks);
@@ -106,9 +102,7 @@ TEST_P(EverySchemeTest, MemoryHoldsTheSameOnEveryTargetAndNothingOfFramesBefore)
   for (const std::string_view each : simd_targets()) {
     SCOPED_TRACE(each);
     force_simd_target(each);
-    std::string error;
-    SurfaceEngine into_one({*parse_scheme(GetParam(), error)}, {}),
-        into_new({*parse_scheme(GetParam(), error)}, {});
+    SurfaceEngine into_one({*parse_scheme(GetParam())}, {}), into_new({*parse_scheme(GetParam())}, {});
     CompressedSurface one;
     FrameStatistics out;
     for (size_t i = 0; i < frames.size(); ++i) {
@@ -138,10 +132,9 @@ TEST_P(EverySchemeTest, DamagedSurfacesAreReadOrRefusedButNeverWander) {
       for (int n = 0; n < 3 && !plane.empty(); ++n)
         plane[random() % plane.size()] ^= static_cast<uint8_t>(1 + random() % 255);
     SurfaceReader reader;
-    std::string error;
     Block block;
-    if (!reader.open(surface, {}, error)) {
-      EXPECT_FALSE(error.empty());
+    if (const auto opened = reader.open(surface, {}); !opened) {
+      EXPECT_FALSE(opened.error().text.empty());
       continue;
     }
     for (uint32_t by = 0; by < surface.blocks_y(); ++by)
@@ -161,12 +154,11 @@ TEST(CompressedSurface, OutsideOfTheSurfaceThereIsNothing) {
   const auto frame = mixed_frame(20, 12, PixelFormat::kRgba8, 1);
   const CompressedSurface surface = compress("vdcp", {frame}, {});
   SurfaceReader reader;
-  std::string error;
   Block block;
   uint32_t word = 0;
   std::vector<uint32_t> words;
   EXPECT_FALSE(reader.read_pixel(0, 0, word)) << "nothing is open";
-  ASSERT_TRUE(reader.open(surface, {}, error));
+  ASSERT_TRUE(reader.open(surface, {}));
   EXPECT_TRUE(reader.read_block(2, 1, block));
   EXPECT_FALSE(reader.read_block(3, 0, block));
   EXPECT_FALSE(reader.read_block(0, 2, block));
@@ -200,12 +192,11 @@ TEST(CompressedSurface, SurfacesOfImpossibleShapeAreRefusedWithAReason) {
   const auto frame = mixed_frame(16, 8, PixelFormat::kRgba8, 1);
   const CompressedSurface whole = compress("vdcp", {frame, frame}, {});
   SurfaceReader reader;
-  std::string error;
   const auto refused = [&](auto&& damage) {
     CompressedSurface surface = whole;
     damage(surface);
-    error.clear();
-    return !reader.open(surface, {}, error) && !error.empty();
+    const auto opened = reader.open(surface, {});
+    return !opened && !opened.error().text.empty();
   };
   EXPECT_TRUE(refused([](auto& s) { s.width = 0; }));
   EXPECT_TRUE(refused([](auto& s) { s.height = 70000; }));

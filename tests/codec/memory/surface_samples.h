@@ -55,8 +55,7 @@ inline SampleFrame mixed_frame(uint32_t width, uint32_t height, PixelFormat form
 /// parse.
 inline CompressedSurface compress(const std::string& scheme, const std::vector<SampleFrame>& frames,
                                   const ModelOptions& options, SchemeStatistics* statistics = nullptr) {
-  std::string error;
-  SurfaceEngine engine({*parse_scheme(scheme, error)}, options);
+  SurfaceEngine engine({*parse_scheme(scheme)}, options);
   CompressedSurface surface;
   FrameStatistics out;
   for (const SampleFrame& frame : frames) engine.process(frame.view(), out, std::span(&surface, 1));

@@ -33,11 +33,10 @@ int fail(const char* what) {
 
 int main() {
   using namespace tilepress;
-  std::string error;
   std::vector<SchemeSpec> schemes;
   for (const char* text : {"vdcp", "hdcp:fvc=16", "ras"}) {
-    const auto scheme = parse_scheme(text, error);
-    if (!scheme) return fail(error.c_str());
+    const auto scheme = parse_scheme(text);
+    if (!scheme) return fail(scheme.error().text.c_str());
     schemes.push_back(*scheme);
   }
   SurfaceEngine engine(schemes, ModelOptions{});
@@ -56,7 +55,8 @@ int main() {
   }
   for (size_t i = 0; i < schemes.size(); ++i) {
     SurfaceReader reader;
-    if (!reader.open(surfaces[i], ReadOptions{}, error)) return fail(error.c_str());
+    if (const auto opened = reader.open(surfaces[i], ReadOptions{}); !opened)
+      return fail(opened.error().text.c_str());
     Block block;
     if (!reader.read_block(5, 3, block)) return fail("block (5, 3) does not decode");
     for (uint32_t y = 0; y < 8; ++y)

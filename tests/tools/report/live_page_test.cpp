@@ -24,7 +24,7 @@ class LivePageTest : public testing::Test {
     folder_ = name;
     info_.program = "gears";
     info_.pid = 4711;
-    options_.schemes = {*parse_scheme("dcp", error_), *parse_scheme("ras", error_)};
+    options_.schemes = {*parse_scheme("dcp"), *parse_scheme("ras")};
   }
   void TearDown() override {
     unlink((folder_ + "/live").c_str());

@@ -1,0 +1,49 @@
+// Slot kernels: 64 pixels looked up in a slot table at once.
+#pragma once
+
+#include "cpu/cpu_target.h"
+#include "dcp/slot_table.h"
+
+namespace tilepress {
+
+struct FoundSlots {
+  uint64_t known;  ///< bit i: pixel i has a slot
+  /// Bit i: pixel i has another slot than the pixel before it, or another colour if no pixel has a slot. Bit
+  /// 0 is set.
+  uint64_t begins;
+};
+
+/// What `load` looks up, and where the answers go.
+struct SlotLookups {
+  const SlotTable* dictionary;  ///< for `index`; null: not wanted
+  uint16_t* indices;
+  uint8_t* widths;
+  const SlotTable* members;  ///< for `find`; null: not wanted
+  uint8_t* slots;
+  FoundSlots found;
+};
+
+struct SlotKernels {
+  /// True if these kernels are faster than probe kernels. Slot tables are used only then.
+  bool byte_permutes;
+
+  /// See PixelKernels::load_traversal. Looks the pixels up unless they are all equal.
+  bool (*load)(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, SlotLookups& lookups);
+
+  /// slots[i] = the slot of pixels[i], or SlotTable::kAbsent.
+  FoundSlots (*find)(const uint32_t* pixels, const SlotTable& table, uint8_t* slots);
+
+  /// Adds the number of pixels of each slot to counts[slot]. Counts the pixels of `wanted`, slot by slot, and
+  /// stops after four slots. Returns the pixels left.
+  uint64_t (*count)(const uint8_t* slots, uint64_t wanted, uint32_t* counts);
+
+  /// See ProbeKernels::find. The indices are slots.
+  void (*index)(const uint32_t* pixels, const SlotTable& table, uint16_t* indices, uint8_t* widths);
+};
+
+extern const KernelSets<SlotKernels> kSlotKernelSets;
+inline const SlotKernels& slot_kernels() {
+  return kSlotKernelSets.in_use();
+}
+
+}  // namespace tilepress

@@ -1,0 +1,54 @@
+// Frame source: copy or in place, and prefetch.
+#include "engine/frame_source.h"
+
+#include <algorithm>
+
+namespace tilepress {
+
+void FrameSource::begin_frame(const SurfaceView& frame) {
+  frame_ = frame;
+  const uint64_t tile_bytes = uint64_t{needs_.tile_side} * frame.width * sizeof(uint32_t);
+  const bool few_bytes = tile_bytes <= RowPrefetch::kMostBytes;
+  in_place_ = !needs_.compares && few_bytes && plane_.refer_to(frame);
+  if (!in_place_) plane_.reshape(frame);
+  prefetches_ = few_bytes && (in_place_ || !needs_.whole_frame);
+  changed_pixels_ = 0;
+  if (needs_.notes_changes) changed_blocks_.assign(plane_.blocks(), has_before_ ? 0 : 1);
+  if (needs_.whole_frame) copy_rows(0, plane_.blocks_y());
+}
+
+void FrameSource::copy_rows(uint32_t begin, uint32_t end) {
+  if (in_place_) return;
+  changed_pixels_ += plane_.assign_rows(frame_, begin * kBlockSide, end * kBlockSide,
+                                        needs_.notes_changes ? changed_blocks_.data() : nullptr);
+}
+
+void FrameSource::take_rows(uint32_t begin, uint32_t end) {
+  if (!needs_.whole_frame) copy_rows(begin, end);
+  if (!prefetches_) return;
+  if (in_place_ && begin == 0) {
+    aim_prefetch(0);
+    prefetch_.step(UINT32_MAX);
+  }
+  aim_prefetch(end);
+}
+
+/// Aims at the row of tiles that begins with row `begin` of blocks.
+void FrameSource::aim_prefetch(uint32_t begin) {
+  const uint32_t y = std::min(begin * kBlockSide, frame_.height);
+  prefetch_.aim(frame_, y, std::min(y + needs_.tile_side, frame_.height));
+}
+
+void FrameSource::prefetch_beside(uint32_t bx, uint32_t bx_end, uint32_t by) {
+  if (!prefetches_) return;
+  constexpr uint32_t kBlockLines = kBlockPixels * sizeof(uint32_t) / RowPrefetch::kLineBytes;
+  prefetch_.step((bx_end - bx) * kBlockLines);
+  if (in_place_) RowPrefetch::bring_nearer(plane_, bx_end, std::min(2 * bx_end - bx, plane_.blocks_x()), by);
+}
+
+uint32_t FrameSource::pixels_inside(uint32_t bx, uint32_t blocks, uint32_t by) const {
+  return std::min(blocks * kBlockSide, plane_.width() - bx * kBlockSide) *
+         std::min(kBlockSide, plane_.height() - by * kBlockSide);
+}
+
+}  // namespace tilepress
