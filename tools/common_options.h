@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "image_frames.h"
+#include "frames/image_frames.h"
 #include "tilepress/run_options.h"
 
 namespace tilepress {

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "quiet_standard_error.h"
+#include "streams/quiet_standard_error.h"
 
 namespace tilepress {
 namespace {

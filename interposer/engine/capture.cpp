@@ -2,7 +2,7 @@
 #include "interposer/engine/capture.h"
 
 #include "interposer/engine/monotonic_clock.h"
-#include "interposer/engine/target_watch.h"
+#include "interposer/engine/readback/target_watch.h"
 
 #include <errno.h>
 #include <sys/auxv.h>

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "interposer/engine/bound_framebuffer.h"
-#include "interposer/engine/capture_worker.h"
-#include "interposer/engine/late_reader.h"
-#include "interposer/engine/present_source.h"
+#include "interposer/engine/readback/bound_framebuffer.h"
+#include "interposer/engine/worker/capture_worker.h"
+#include "interposer/engine/readback/late_reader.h"
+#include "interposer/engine/source/present_source.h"
 #include "interposer/engine/present_times.h"
-#include "interposer/engine/readback_probe.h"
+#include "interposer/engine/readback/readback_probe.h"
 #include "interposer/engine/shim_log.h"
 #include "interposer/engine/surface_registry.h"
 #include "tilepress/run_options.h"

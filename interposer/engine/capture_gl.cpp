@@ -6,12 +6,12 @@
 
 #include <cstring>
 
-#include "interposer/engine/attachment_shape.h"
+#include "interposer/engine/readback/attachment_shape.h"
 #include "interposer/engine/capture.h"
-#include "interposer/engine/in_context_readback.h"
+#include "interposer/engine/readback/in_context_readback.h"
 #include "interposer/engine/monotonic_clock.h"
-#include "interposer/engine/resolve_readback.h"
-#include "interposer/engine/target_watch.h"
+#include "interposer/engine/readback/resolve_readback.h"
+#include "interposer/engine/readback/target_watch.h"
 
 namespace tilepress {
 namespace {

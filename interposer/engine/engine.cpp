@@ -6,7 +6,7 @@
 
 #include "interposer/engine/capture.h"
 #include "interposer/engine/own_calls.h"
-#include "interposer/engine/target_watch.h"
+#include "interposer/engine/readback/target_watch.h"
 
 namespace tilepress {
 namespace {

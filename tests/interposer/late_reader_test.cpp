@@ -1,6 +1,6 @@
 // Late reader: pixel buffers, their thread and the frame queue together, on a GL that is made up and may
 // fail.
-#include "interposer/engine/late_reader.h"
+#include "interposer/engine/readback/late_reader.h"
 
 #include <GL/glext.h>
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@
 #include <set>
 #include <thread>
 
-#include "interposer/engine/frame_queue.h"
-#include "interposer/engine/gl_readback.h"
-#include "interposer/engine/pixel_buffer_groups.h"
+#include "interposer/engine/worker/frame_queue.h"
+#include "interposer/engine/readback/gl_readback.h"
+#include "interposer/engine/readback/pixel_buffer_groups.h"
 
 namespace tilepress {
 namespace {

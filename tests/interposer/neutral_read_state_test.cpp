@@ -1,6 +1,6 @@
 // Neutral read state: against a made-up GL that knows exactly the states of one version and its extensions:
 // also those of the table that no driver here has.
-#include "interposer/engine/neutral_read_state.h"
+#include "interposer/engine/readback/neutral_read_state.h"
 
 #include <GL/glext.h>
 #include <gtest/gtest.h>

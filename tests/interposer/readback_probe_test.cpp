@@ -1,5 +1,5 @@
 // Readback probe: what it decides, on costs that are made up.
-#include "interposer/engine/readback_probe.h"
+#include "interposer/engine/readback/readback_probe.h"
 
 #include <gtest/gtest.h>
 

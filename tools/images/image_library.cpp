@@ -3,7 +3,7 @@
 
 #include <dlfcn.h>
 
-#include "shim_path.h"
+#include "capture/shim_path.h"
 
 namespace tilepress {
 namespace {

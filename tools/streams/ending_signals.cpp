@@ -11,7 +11,7 @@
 #include <cstring>
 #include <ctime>
 
-#include "quiet_standard_error.h"
+#include "streams/quiet_standard_error.h"
 
 namespace tilepress {
 namespace {

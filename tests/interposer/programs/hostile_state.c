@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "interposer/engine/read_states.h"
+#include "interposer/engine/readback/read_states.h"
 
 enum { kWidth = 33, kHeight = 21 };
 

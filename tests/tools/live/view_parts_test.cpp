@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "live/heat_colors.h"
-#include "view/view_pixels.h"
-#include "view/view_request.h"
-#include "view/view_state.h"
+#include "live/view/view_pixels.h"
+#include "live/view/view_request.h"
+#include "live/view/view_state.h"
 
 namespace tilepress {
 namespace {

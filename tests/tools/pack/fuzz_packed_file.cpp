@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "packed_file.h"
+#include "frames/packed_file.h"
 #include "tilepress/surface_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {

@@ -1,5 +1,5 @@
 // A packed file gives back what was put in, and says so in one line when it is not whole.
-#include "packed_file.h"
+#include "frames/packed_file.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

@@ -1,0 +1,75 @@
+// GL readback: asks for the implementation's own format, because any other is converted pixel by pixel on the
+// program's thread, and because a conversion of 16-bit or 10-bit pixels would not be the surface any more.
+#include "interposer/engine/readback/gl_readback.h"
+
+#include <utility>
+
+#include "interposer/engine/monotonic_clock.h"
+#include "interposer/engine/readback/resolve_readback.h"
+#include "interposer/engine/readback/transfer.h"
+
+namespace tilepress {
+namespace {
+
+Transfer transfer_of(PixelFormat format, const GlFunctions& gl) {
+  GLint preferred_format = 0, preferred_type = 0;
+  gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &preferred_format);
+  gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &preferred_type);
+  while (gl.GetError() != GL_NO_ERROR) {
+  }  // desktop GL before 4.1 does not know the question
+  return tilepress::transfer_of(format, preferred_format, preferred_type);
+}
+
+}  // namespace
+
+std::optional<PixelFormat> format_of(const ChannelBits& bits) {
+  const auto is = [&](int red, int green, int blue, int alpha) {
+    return bits.red == red && bits.green == green && bits.blue == blue && bits.alpha == alpha;
+  };
+  if (bits.integer) return std::nullopt;
+  if (bits.floating) return is(16, 16, 16, 16) ? std::optional(PixelFormat::kRgba16f) : std::nullopt;
+  if (is(8, 8, 8, 8)) return PixelFormat::kRgba8;
+  if (is(8, 8, 8, 0)) return PixelFormat::kRgbx8;
+  if (is(5, 6, 5, 0)) return PixelFormat::kRgb565;
+  if (is(10, 10, 10, 2) || is(10, 10, 10, 0)) return PixelFormat::kRgb10a2;  // without alpha GL reads A as 1
+  return std::nullopt;
+}
+
+bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
+                      const std::shared_ptr<PixelBuffers>& buffers, CapturedFrame& frame, GLenum& error) {
+  const BackBuffer back_buffer(gl, shape);
+  error = back_buffer.error();
+  if (error != 0) return false;
+  frame.buffered_ns = 0;
+  const Transfer transfer = transfer_of(*shape.format, gl);
+  const size_t pitch_bytes = size_t{shape.width} * transfer.pixel_bytes;
+  std::byte* pixels = frame.reserve(pitch_bytes * shape.height);
+  if (pixels == nullptr) return false;
+  frame.view.top_row = pixels + pitch_bytes * (shape.height - 1);
+  frame.view.pitch_bytes = -static_cast<ptrdiff_t>(pitch_bytes);
+  frame.view.width = shape.width;
+  frame.view.height = shape.height;
+  frame.view.format = *shape.format;
+  frame.view.order = transfer.order;
+  gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  const PixelBuffers::Area area{static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height),
+                                transfer.format, transfer.type, pitch_bytes * shape.height};
+  std::unique_ptr<LateRead> late;
+  if (frame.way != ReadWay::kSync && buffers != nullptr && !buffers->refused())
+    late = buffers->begin(area, frame.buffered_ns);
+  if (late == nullptr && frame.way == ReadWay::kAsync) frame.way = ReadWay::kSync;
+  if (frame.way == ReadWay::kAsync) {
+    frame.late = std::move(late);
+    frame.read_ns = std::exchange(frame.buffered_ns, 0);
+    return true;
+  }
+  const uint64_t begin_ns = now_ns();
+  gl.ReadPixels(0, 0, area.width, area.height, area.format, area.type, pixels);
+  frame.read_ns = now_ns() - begin_ns;
+  for (GLenum found = gl.GetError(); found != GL_NO_ERROR; found = gl.GetError()) error = found;
+  // What comes out of the buffer must be what comes out of the call, or none is used.
+  if (late == nullptr || !buffers->equals(*late, pixels)) frame.buffered_ns = 0;
+  return error == 0;
+}
+
+}  // namespace tilepress

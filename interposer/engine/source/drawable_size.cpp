@@ -1,0 +1,86 @@
+// Drawable size: GetGeometry and GetWindowAttributes through XCB, whose functions are looked up because the
+// engine links no X library.
+#include "interposer/engine/source/drawable_size.h"
+
+#include <GL/glx.h>
+#include <dlfcn.h>
+#include <xcb/xproto.h>
+
+#include <cstdlib>
+
+namespace tilepress {
+
+DrawableSize::DrawableSize(const LibrarySymbols& library) {
+  dlopen("libX11-xcb.so.1", RTLD_LAZY | RTLD_LOCAL);
+  dlerror();
+  get_connection_ =
+      reinterpret_cast<GetConnection>(library.find_in_loaded("libX11-xcb.so.1", "XGetXCBConnection"));
+  get_geometry_ = library.find_in_loaded("libxcb.so.1", "xcb_get_geometry");
+  get_geometry_reply_ = library.find_in_loaded("libxcb.so.1", "xcb_get_geometry_reply");
+  get_attributes_ = library.find_in_loaded("libxcb.so.1", "xcb_get_window_attributes");
+  get_glx_attributes_ = library.find_in_loaded("libxcb-glx.so.0", "xcb_glx_get_drawable_attributes");
+  get_glx_attributes_reply_ =
+      library.find_in_loaded("libxcb-glx.so.0", "xcb_glx_get_drawable_attributes_reply");
+  get_attributes_reply_ = library.find_in_loaded("libxcb.so.1", "xcb_get_window_attributes_reply");
+}
+
+bool DrawableSize::query(Display* display, XID drawable, unsigned& width, unsigned& height,
+                         VisualID& visual) const {
+  if (get_connection_ == nullptr || get_geometry_ == nullptr || get_geometry_reply_ == nullptr ||
+      get_attributes_ == nullptr || get_attributes_reply_ == nullptr)
+    return false;
+  xcb_connection_t* connection = get_connection_(display);
+  const auto id = static_cast<uint32_t>(drawable);
+  const auto size_asked = reinterpret_cast<decltype(&xcb_get_geometry)>(get_geometry_)(connection, id);
+  const auto visual_asked =
+      reinterpret_cast<decltype(&xcb_get_window_attributes)>(get_attributes_)(connection, id);
+  xcb_generic_error_t* errors[2] = {};
+  auto* size = reinterpret_cast<decltype(&xcb_get_geometry_reply)>(get_geometry_reply_)(
+      connection, size_asked, &errors[0]);
+  auto* attributes = reinterpret_cast<decltype(&xcb_get_window_attributes_reply)>(get_attributes_reply_)(
+      connection, visual_asked, &errors[1]);
+  if (size != nullptr) {
+    width = size->width;
+    height = size->height;
+  }
+  visual = attributes != nullptr ? attributes->visual : 0;
+  const bool known = size != nullptr;
+  for (void* answer : {static_cast<void*>(size), static_cast<void*>(attributes),
+                       static_cast<void*>(errors[0]), static_cast<void*>(errors[1])})
+    free(answer);
+  return known;
+}
+
+bool DrawableSize::query_glx(Display* display, XID drawable, GlxDrawable& found) const {
+  // As in xcb/glx.h, which needs a package more to build with: behind the head come pairs of name and value.
+  struct Cookie {
+    unsigned sequence;
+  };
+  struct Reply {
+    uint8_t type, unused;
+    uint16_t sequence;
+    uint32_t length, attribute_count, unused_words[5];
+  };
+  using Get = Cookie (*)(xcb_connection_t*, uint32_t);
+  using GetReply = Reply* (*)(xcb_connection_t*, Cookie, xcb_generic_error_t**);
+  if (get_connection_ == nullptr || get_glx_attributes_ == nullptr || get_glx_attributes_reply_ == nullptr)
+    return false;
+  xcb_connection_t* connection = get_connection_(display);
+  xcb_generic_error_t* error = nullptr;
+  const Cookie asked =
+      reinterpret_cast<Get>(get_glx_attributes_)(connection, static_cast<uint32_t>(drawable));
+  Reply* reply = reinterpret_cast<GetReply>(get_glx_attributes_reply_)(connection, asked, &error);
+  found = {};
+  for (uint32_t i = 0; reply != nullptr && i < reply->attribute_count && 2 * i + 1 < reply->length; ++i) {
+    const uint32_t* attribute = reinterpret_cast<const uint32_t*>(reply + 1) + size_t{2} * i;
+    if (attribute[0] == GLX_WIDTH) found.width = attribute[1];
+    if (attribute[0] == GLX_HEIGHT) found.height = attribute[1];
+    if (attribute[0] == GLX_FBCONFIG_ID) found.config = attribute[1];
+    if (attribute[0] == GLX_SCREEN) found.screen = static_cast<int>(attribute[1]);
+  }
+  free(reply);
+  free(error);
+  return found.width > 0 && found.height > 0 && found.config > 0;
+}
+
+}  // namespace tilepress

@@ -1,0 +1,78 @@
+// Present series: rows "surface,begin_ns,hook_ns" as the shim appends them.
+#include "capture/present_series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <numeric>
+
+#include "tilepress/csv_reader.h"
+
+namespace tilepress {
+namespace {
+
+struct Present {
+  uint64_t begin_ns, hook_ns;
+};
+
+/// Frames presented before the first interval that counts: the shim loads itself in the first.
+constexpr size_t kStartUpFrames = 2;
+
+std::map<std::string, std::vector<Present>> presents_by_window(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::map<std::string, std::vector<Present>> windows;
+  CsvReader reader(text);
+  std::vector<std::string> row;
+  reader.next(row);  // the header
+  while (reader.next(row))
+    if (row.size() >= 3)
+      windows[row[0]].push_back(
+          {std::strtoull(row[1].c_str(), nullptr, 10), std::strtoull(row[2].c_str(), nullptr, 10)});
+  return windows;
+}
+
+PresentSeries series_of(const std::vector<Present>& presents) {
+  PresentSeries series;
+  series.presents = presents.size();
+  double hook_sum_ns = 0;
+  for (size_t i = kStartUpFrames; i < presents.size(); ++i) {
+    series.intervals_ns.push_back(static_cast<double>(presents[i].begin_ns - presents[i - 1].begin_ns));
+    hook_sum_ns += static_cast<double>(presents[i - 1].hook_ns);
+  }
+  if (!series.intervals_ns.empty())
+    series.hook_ns = hook_sum_ns / static_cast<double>(series.intervals_ns.size());
+  std::sort(series.intervals_ns.begin(), series.intervals_ns.end());
+  return series;
+}
+
+}  // namespace
+
+double PresentSeries::mean_ns() const {
+  if (intervals_ns.empty()) return 0;
+  return std::accumulate(intervals_ns.begin(), intervals_ns.end(), 0.0) /
+         static_cast<double>(intervals_ns.size());
+}
+
+double PresentSeries::quantile_ns(double part) const {
+  if (intervals_ns.empty()) return 0;
+  const double rank = std::ceil(part * static_cast<double>(intervals_ns.size()));
+  return intervals_ns[static_cast<size_t>(std::max(rank, 1.0)) - 1];
+}
+
+PresentSeries busiest_series(const std::string& folder) {
+  std::vector<Present> busiest;
+  std::error_code code;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
+    if (entry.path().extension() != ".times") continue;
+    for (auto& [window, presents] : presents_by_window(entry.path()))
+      if (presents.size() > busiest.size()) busiest = std::move(presents);
+  }
+  return series_of(busiest);
+}
+
+}  // namespace tilepress

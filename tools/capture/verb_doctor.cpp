@@ -1,0 +1,183 @@
+// tilepress doctor: tells what this machine offers and lacks, with the Debian package that has it.
+#include <fmt/format.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "capture/child_process.h"
+#include "command_line.h"
+#include "capture/gl_probe.h"
+#include "capture/shim_path.h"
+#include "capture/shim_self_test.h"
+#include "verb.h"
+
+namespace tilepress {
+namespace {
+
+struct Finding {
+  std::string what;
+  bool found = false;
+  bool essential = false;  ///< nothing can be captured without it
+  std::string detail;
+  std::string package;  ///< Debian package that brings it
+};
+
+Finding find_tool(const char* name, const char* purpose, const char* package) {
+  StartFailure ignored{};
+  const auto path = find_program(name, ignored);
+  return {name, path.has_value(), false, path ? *path + ", " + purpose : purpose, package};
+}
+
+bool file_contains(const std::string& path, const char* word) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return content.find(word) != std::string::npos;
+}
+
+/// Whether an X server answers behind a local DISPLAY (":1", ":1.0", "unix:1"); remote ones are taken at
+/// their word.
+bool display_answers(const std::string& display) {
+  const size_t colon = display.rfind(':');
+  if (colon == std::string::npos) return false;
+  const std::string host = display.substr(0, colon);
+  if (!host.empty() && host != "unix") return true;
+  const std::string path = "/tmp/.X11-unix/X" + std::to_string(std::atoi(display.c_str() + colon + 1));
+  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  // Linux servers also listen under the same name in the abstract name space, and some only there.
+  bool answers = connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  if (!answers) {
+    std::memset(address.sun_path, 0, sizeof address.sun_path);
+    path.copy(address.sun_path + 1, sizeof address.sun_path - 2);
+    const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + path.size());
+    answers = connect(fd, reinterpret_cast<const sockaddr*>(&address), size) == 0;
+  }
+  close(fd);
+  return answers;
+}
+
+void add_gl(std::vector<Finding>& findings) {
+  const GlProbe gl = probe_gl();
+  findings.push_back({"EGL library", !gl.egl_version.empty(), true,
+                      gl.egl_version.empty() ? gl.failure : "libEGL.so.1, " + gl.egl_version, "libegl1"});
+  findings.push_back({"libglvnd", gl.glvnd, false,
+                      gl.glvnd ? "libEGL dispatches to vendors" : "libEGL is no libglvnd: no vendor shim",
+                      "libegl1"});
+  const bool software =
+      gl.renderer.find("llvmpipe") != std::string::npos || gl.renderer.find("softpipe") != std::string::npos;
+  findings.push_back({"headless GL", gl.failure.empty(), false,
+                      gl.failure.empty() ? fmt::format("{}, {} ({})", gl.renderer, gl.version,
+                                                       software ? "software rendering" : "a GPU")
+                                         : gl.failure,
+                      "libgl1-mesa-dri"});
+  const size_t mesa = gl.version.find("Mesa ");
+  if (mesa != std::string::npos)
+    findings.push_back({"Mesa", true, false, gl.version.substr(mesa + std::strlen("Mesa ")), ""});
+  std::error_code code;
+  std::string nodes;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/dri", code))
+    nodes += (nodes.empty() ? "" : ", ") + entry.path().string();
+  findings.push_back({"GPU devices", !nodes.empty(), false,
+                      nodes.empty() ? "none in /dev/dri: Mesa renders in software" : nodes, ""});
+}
+
+void add_displays(std::vector<Finding>& findings) {
+  const char* display = std::getenv("DISPLAY");
+  const bool named = display != nullptr && *display != '\0';
+  const bool answers = named && display_answers(display);
+  findings.push_back({"X display", answers, false,
+                      !named    ? "DISPLAY is not set; xvfb-run -a gives a private one"
+                      : answers ? display
+                                : std::string(display) + " does not answer",
+                      ""});
+  const char* wayland = std::getenv("WAYLAND_DISPLAY");
+  findings.push_back({"Wayland", wayland != nullptr, false,
+                      wayland != nullptr ? wayland : "WAYLAND_DISPLAY is not set", ""});
+}
+
+void add_replay(std::vector<Finding>& findings) {
+  StartFailure ignored{};
+  const auto retracer = find_program("eglretrace", ignored);
+  const bool waffle = retracer && file_contains(*retracer, "libwaffle");
+  findings.push_back({"eglretrace", waffle, false,
+                      !retracer ? "replays traces"
+                      : waffle  ? *retracer + ", with waffle: replays without a display"
+                                : *retracer + " is built without waffle and needs a display",
+                      "apitrace"});
+  findings.push_back(find_tool("glretrace", "replays GLX traces on an X display", "apitrace"));
+  findings.push_back(find_tool("apitrace", "records traces", "apitrace"));
+}
+
+/// Whether the shim really gets into a program and captures it, by each road.
+void add_self_tests(std::vector<Finding>& findings, const std::string& shim) {
+  const SelfTestResult preload = test_shim(shim, ShimRoad::kPreload);
+  findings.push_back({"capture", preload.passed, true, "preloaded: " + preload.detail, ""});
+  const SelfTestResult glvnd = test_shim(shim, ShimRoad::kGlvnd);
+  findings.push_back({"capture", glvnd.passed, false, "through libglvnd: " + glvnd.detail, ""});
+}
+
+std::vector<Finding> examine() {
+  std::vector<Finding> findings;
+  std::string looked;
+  const auto shim = find_shim("libtilepress-preload.so", looked);
+  findings.push_back({"shim", shim.has_value(), true, shim ? *shim : "looked at " + looked, ""});
+  add_gl(findings);
+  if (shim) add_self_tests(findings, *shim);
+  add_displays(findings);
+  findings.push_back(find_tool("Xvfb", "an X server without a screen", "xvfb"));
+  findings.push_back(find_tool("xvfb-run", "runs a program in one", "xvfb"));
+  findings.push_back(find_tool("xauth", "which xvfb-run needs", "xauth"));
+  add_replay(findings);
+  findings.push_back(find_tool("glmark2-es2", "a program to try, EGL", "glmark2-es2-x11"));
+  findings.push_back(find_tool("glmark2", "a program to try, GLX", "glmark2-x11"));
+  return findings;
+}
+
+}  // namespace
+
+int verb_doctor(int argc, char** argv) {
+  CLI::App app(
+      "Tells what this machine offers for capture and replay, and what is missing. Exit 1 if no capture is "
+      "possible.");
+  bool json = false;
+  app.add_flag("--json", json, "As JSON");
+  if (auto status = parse_command_line(app, argc, argv)) return *status;
+
+  const std::vector<Finding> findings = examine();
+  bool capable = true;
+  std::string packages;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Finding& finding : findings) {
+    capable &= finding.found || !finding.essential;
+    if (!finding.found && !finding.package.empty() &&
+        packages.find(" " + finding.package) == std::string::npos)
+      packages += " " + finding.package;
+    if (json)
+      list.push_back({{"what", finding.what},
+                      {"found", finding.found},
+                      {"detail", finding.detail},
+                      {"package", finding.package}});
+    else
+      std::fputs(
+          fmt::format("{:<8} {:<12} {}\n", finding.found ? "found" : "missing", finding.what, finding.detail)
+              .c_str(),
+          stdout);
+  }
+  if (json)
+    std::printf("%s\n", list.dump(2).c_str());
+  else if (!packages.empty())
+    std::printf("\nTo get what is missing: apt-get install%s\n", packages.c_str());
+  return capable ? kExitDone : kExitFailed;
+}
+
+}  // namespace tilepress

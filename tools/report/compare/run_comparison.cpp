@@ -1,0 +1,87 @@
+// Run comparison: pairs frames by surface and number.
+#include "report/compare/run_comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace tilepress {
+namespace {
+
+using FrameKey = std::pair<uint32_t, uint64_t>;  // surface, frame
+
+std::map<FrameKey, const FrameStatistics*> measured_frames(const RunRecord& run, const FrameSet& frames) {
+  std::map<FrameKey, const FrameStatistics*> out;
+  for (const FrameStatistics& frame : run.frames)
+    if (!frame.warmup && frames.contains(frame.frame)) out[{frame.surface, frame.frame}] = &frame;
+  return out;
+}
+
+bool same_picture(const FrameStatistics& a, const FrameStatistics& b) {
+  return a.width == b.width && a.height == b.height && a.format == b.format &&
+         a.metrics.unique_colors == b.metrics.unique_colors &&
+         std::abs(a.metrics.entropy - b.metrics.entropy) < 1e-9;
+}
+
+/// Names of `names` that `others` lacks.
+std::vector<std::string> missing_from(const std::vector<std::string>& others,
+                                      const std::vector<std::string>& names) {
+  std::vector<std::string> out;
+  for (const std::string& name : names)
+    if (std::find(others.begin(), others.end(), name) == others.end()) out.push_back(name);
+  return out;
+}
+
+}  // namespace
+
+RunComparison compare_runs(const RunRecord& a, const RunRecord& b, const FrameSet& frames) {
+  RunComparison out;
+  out.path_a = a.path;
+  out.path_b = b.path;
+  out.schemes_only_a = missing_from(b.scheme_names, a.scheme_names);
+  out.schemes_only_b = missing_from(a.scheme_names, b.scheme_names);
+
+  const auto frames_a = measured_frames(a, frames), frames_b = measured_frames(b, frames);
+  std::vector<std::pair<const FrameStatistics*, const FrameStatistics*>> pairs;
+  for (const auto& [key, frame] : frames_a) {
+    const auto partner = frames_b.find(key);
+    if (partner == frames_b.end()) {
+      ++out.only_a;
+      continue;
+    }
+    pairs.emplace_back(frame, partner->second);
+    if (!same_picture(*frame, *partner->second)) ++out.different_pictures;
+  }
+  out.common = pairs.size();
+  out.only_b = frames_b.size() - pairs.size();
+
+  for (size_t i = 0; i < a.scheme_names.size(); ++i) {
+    const auto found = std::find(b.scheme_names.begin(), b.scheme_names.end(), a.scheme_names[i]);
+    if (found == b.scheme_names.end()) continue;
+    const size_t j = static_cast<size_t>(found - b.scheme_names.begin());
+    SchemeComparison scheme;
+    scheme.scheme = a.scheme_names[i];
+    scheme.a.burst_bits = a.burst_bits;
+    scheme.b.burst_bits = b.burst_bits;
+    for (const auto& [in_a, in_b] : pairs) {
+      const SchemeStatistics &of_a = in_a->schemes[i], &of_b = in_b->schemes[j];
+      // A frame that was cut off when its program was killed has no sizes.
+      if (of_a.raw_bits == 0 || of_b.raw_bits == 0) continue;
+      scheme.a += of_a;
+      scheme.b += of_b;
+      scheme.better += of_b.rate() > of_a.rate();
+      scheme.worse += of_b.rate() < of_a.rate();
+      scheme.frames.push_back({in_a->frame, in_a->surface, of_a, of_b});
+    }
+    out.schemes.push_back(std::move(scheme));
+  }
+  return out;
+}
+
+double relative_change(double a, double b) {
+  if (a == b) return 0;
+  return a == 0 ? NAN : (b - a) / a;
+}
+
+}  // namespace tilepress
