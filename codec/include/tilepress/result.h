@@ -5,20 +5,30 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace tilepress {
 
 enum class ErrorKind : uint8_t {
-  kBadValue,  ///< an option or a specification that the caller wrote
-  kFile,      ///< a file that is missing or cannot be read
-  kBadBits,   ///< bits that no encoder writes
+  kBadValue,     ///< an option or a specification that the caller wrote
+  kFile,         ///< a file that is missing, or that cannot be read or written
+  kBadBits,      ///< bits that no encoder writes
+  kExists,       ///< the output is there already
+  kUnsupported,  ///< valid input that tilepress does not handle
+  kSystem,       ///< a system call or a library that failed
 };
 
 struct Error {
   ErrorKind kind;
   std::string text;  ///< one line without a newline
 };
+
+/// Returns `error` with "subject: " before its text.
+inline Error about(std::string_view subject, Error error) {
+  error.text.insert(0, std::string(subject) + ": ");
+  return error;
+}
 
 /// Converts from a value or an Error, so that functions return either.
 template <class T>
