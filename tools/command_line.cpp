@@ -26,17 +26,6 @@ std::string describe(const CLI::App& app, const CLI::ParseError& error) {
 
 }  // namespace
 
-int fail(int status, std::string_view line) {
-  std::string text = "tilepress: ";
-  text.append(line);
-  while (text.back() == '\n') text.pop_back();
-  for (char& c : text)
-    if (c == '\n' || c == '\r') c = ' ';
-  text += '\n';
-  std::fputs(text.c_str(), stderr);
-  return status;
-}
-
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
   app.name(std::string("tilepress ") + argv[0]);
   app.set_config("--config", "", "Take options from a TOML file, by their long names")->type_name("FILE");

@@ -1,9 +1,10 @@
-// Command line: exit statuses, one-line errors, and CLI11 parsing that keeps to both.
+// Command line: exit statuses, and CLI11 parsing that ends with one of them.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <optional>
-#include <string_view>
+
+#include "streams/messages.h"
 
 namespace tilepress {
 
@@ -15,9 +16,6 @@ constexpr int kExitNothingCaptured = 3;
 constexpr int kExitLauncherFailed = 125;
 constexpr int kExitNotExecutable = 126;
 constexpr int kExitNotFound = 127;
-
-/// Prints "tilepress: LINE" on standard error, line breaks flattened, and returns `status`.
-int fail(int status, std::string_view line);
 
 /// Parses argv ([0] is the verb). Returns the exit status if the verb must stop here: help shown (0), or a
 /// usage error, told in one line (2). Also gives the verb `--config FILE.toml`: the options under their long

@@ -126,5 +126,6 @@ int end_with(int status) {
 
 int main(int argc, char** argv) {
   tilepress::guard_standard_streams();
+  tilepress::open_messages();
   return tilepress::end_with(tilepress::run_command(argc, argv));
 }

@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "streams/quiet_standard_error.h"
+#include "streams/messages.h"
 
 namespace tilepress {
 namespace {
@@ -35,7 +34,7 @@ ProgressLine::ProgressLine(ProgressMode mode, std::string what)
 }
 
 ProgressLine::~ProgressLine() {
-  clear();
+  clear_progress();
 }
 
 void ProgressLine::show(uint64_t done, std::optional<uint64_t> total) {
@@ -52,20 +51,14 @@ void ProgressLine::show(uint64_t done, std::optional<uint64_t> total) {
     nlohmann::ordered_json json = {{"progress", what_}, {"frames_done", done}, {"elapsed_s", elapsed}};
     if (total) json["frames_total"] = *total;
     if (left) json["eta_s"] = *left;
-    dprintf(true_standard_error(), "%s\n", json.dump().c_str());
+    tilepress::show(json.dump() + "\n");
     return;
   }
   std::string line = fmt::format("{}: {}", what_, done);
   if (total) line += fmt::format("/{} frames, {} %", *total, *total > 0 ? done * 100 / *total : 100);
   line += fmt::format(", {:.1f} frames/s", per_second);
   if (left) line += ", " + duration_text(*left) + " left";
-  dprintf(true_standard_error(), "\r%s\033[K", line.c_str());
-  visible_ = true;
-}
-
-void ProgressLine::clear() {
-  if (visible_) dprintf(true_standard_error(), "\r\033[K");
-  visible_ = false;
+  show_progress(line);
 }
 
 }  // namespace tilepress

@@ -20,13 +20,11 @@ class ProgressLine {
   ~ProgressLine();  ///< takes the line away
   /// `total`: nothing when it is not known.
   void show(uint64_t done, std::optional<uint64_t> total);
-  void clear();
 
  private:
   ProgressMode mode_;
   std::string what_;
   std::chrono::steady_clock::time_point begin_, shown_;
-  bool visible_ = false;
 };
 
 }  // namespace tilepress

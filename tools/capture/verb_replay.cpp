@@ -216,7 +216,7 @@ int verb_replay(int argc, char** argv) {
   if (options.verbose) {
     options.replay.explain = [&](const std::string& line) {
       const std::lock_guard lock(telling);
-      progress.clear();
+      clear_progress();
       std::fprintf(stderr, "tilepress: %s\n", printable(line).c_str());
     };
   }
@@ -225,7 +225,7 @@ int verb_replay(int argc, char** argv) {
     const std::lock_guard lock(telling);
     progress.show(at.frames_done, at.frames_wanted);
   });
-  progress.clear();
+  clear_progress();
   const int signal = noted_signal();
   const std::string interruption = signal != 0 ? interruption_text(batch) : "";
   int status = kExitDone;
