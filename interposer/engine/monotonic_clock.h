@@ -1,7 +1,7 @@
 // Monotonic clock: nanoseconds that never run backwards.
 #pragma once
 
-#include "interposer/run/system_call.h"
+#include "interposer/system_calls.h"
 
 namespace tilepress {
 

@@ -10,7 +10,7 @@
 #include "environment.h"
 #include "plain_text.h"
 #include "session_file.h"
-#include "system_calls.h"
+#include "../system_calls.h"
 
 static const struct TilepressEngine* loaded;
 

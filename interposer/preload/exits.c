@@ -5,7 +5,7 @@
 
 #include "c_library.h"
 #include "engine_loader.h"
-#include "system_calls.h"
+#include "../system_calls.h"
 
 typedef void (*exit_function)(int status);
 

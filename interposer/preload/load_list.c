@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "system_calls.h"
+#include "../system_calls.h"
 
 // As glibc's struct r_debug_extended, which older headers lack. musl has the members before `next`.
 struct debugger_view {

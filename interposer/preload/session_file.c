@@ -11,7 +11,7 @@
 #include "entry_points.h"
 #include "environment.h"
 #include "plain_text.h"
-#include "system_calls.h"
+#include "../system_calls.h"
 
 extern char* program_name __asm__("program_invocation_short_name") __attribute__((weak));
 

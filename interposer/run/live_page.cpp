@@ -11,7 +11,7 @@
 
 #include "run/sequenced_words.h"
 #include "run/shared_file.h"
-#include "run/system_call.h"
+#include "system_calls.h"
 
 namespace tilepress {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "run/append_file.h"
 #include "run/run_json.h"
-#include "run/system_call.h"
+#include "system_calls.h"
 #include "tilepress/run_reader.h"
 
 namespace tilepress {

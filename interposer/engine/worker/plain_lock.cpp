@@ -7,7 +7,7 @@
 #include <climits>
 
 #include "interposer/engine/monotonic_clock.h"
-#include "interposer/run/system_call.h"
+#include "interposer/system_calls.h"
 
 namespace tilepress {
 namespace {

@@ -16,7 +16,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "interposer/run/system_call.h"
+#include "interposer/system_calls.h"
 
 namespace tilepress {
 
