@@ -1,5 +1,6 @@
-// System calls, made directly: the C library's functions for them may be replaced by another library's. For C (the
-// preloaded libraries) and C++ (engine and tools). A result from -4095 to -1 is a negative errno; errno itself stays.
+// System calls, made directly: the C library's functions for them may be replaced by another library's. For C
+// (the preloaded libraries) and C++ (engine and tools). A result from -4095 to -1 is a negative errno; errno
+// itself stays.
 #pragma once
 
 #include <fcntl.h>
@@ -47,7 +48,8 @@ inline long address_of(const volatile void* memory) {
   return reinterpret_cast<long>(memory);
 }
 
-/// Nanoseconds of the kernel's clock. Some programs run on an invented time and replace the C library's function.
+/// Nanoseconds of the kernel's clock. Some programs run on an invented time and replace the C library's
+/// function.
 inline uint64_t clock_ns(clockid_t clock) {
   timespec now{};
   system_call(SYS_clock_gettime, clock, address_of(&now));

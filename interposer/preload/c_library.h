@@ -1,6 +1,6 @@
-// C library: the functions of the C library that the shim calls, found in its symbol table. Their names are not
-// used: a sanitizer, a shell or the program itself may define functions of these names, and may not be ready to
-// be called when a library looks a symbol up.
+// C library: the functions of the C library that the shim calls, found in its symbol table. Their names are
+// not used: a sanitizer, a shell or the program itself may define functions of these names, and may not be
+// ready to be called when a library looks a symbol up.
 #pragma once
 
 #include <stdbool.h>

@@ -4,11 +4,8 @@
   .macro trampoline function, filter, caller_register
   .globl \function
   .type \function, %function
-  .globl tp_\function        // the same, for this library alone
-  .hidden tp_\function
   .p2align 4
 \function:
-tp_\function:
   .cfi_startproc
   hint #34                    // bti c
   stp x29, x30, [sp, #-48]!

@@ -12,11 +12,8 @@
   .macro trampoline function, filter, caller_register
   .globl \function
   .type \function, @function
-  .globl tp_\function        // the same, for this library alone
-  .hidden tp_\function
   .p2align 4
 \function:
-tp_\function:
   .cfi_startproc
   _CET_ENDBR
   pushq %rdi

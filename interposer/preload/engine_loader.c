@@ -5,12 +5,12 @@
 #include <dlfcn.h>
 #include <stddef.h>
 
+#include "../system_calls.h"
 #include "c_library.h"
 #include "elf_symbols.h"
 #include "environment.h"
 #include "plain_text.h"
 #include "session_file.h"
-#include "../system_calls.h"
 
 static const struct TilepressEngine* loaded;
 
@@ -52,7 +52,8 @@ static void load(void) {
 
 const struct TilepressEngine* tp_engine(void) {
   enum { kUntried = 0, kTried = -1 };
-  static int state;  // otherwise the process that is trying: a forked child does not wait for its parent's thread
+  static int
+      state;  // otherwise the process that is trying: a forked child does not wait for its parent's thread
   int seen = __atomic_load_n(&state, __ATOMIC_ACQUIRE);
   while (seen != kTried) {
     const int process = tp_process_id();

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "../system_calls.h"
 #include "c_library.h"
 #include "engine_loader.h"
-#include "../system_calls.h"
 
 typedef void (*exit_function)(int status);
 

@@ -5,7 +5,6 @@
 #ifndef _CET_ENDBR
 #define _CET_ENDBR endbr64
 #endif
-#include "gl_slots.h"
 
   .macro gl_export function
   .globl \function
@@ -31,7 +30,7 @@
 #ifdef TP_GL_EXPORT_ALL
 #define TP_GL_TARGET(name, kind) gl_export name;
 #else
-#define TP_GL_TARGET(name, kind)
+#define TP_GL_TARGET(name, kind) .set slot, slot + 1;
 #endif
 #include "gl_names.def"
 

@@ -6,15 +6,9 @@
 
 #include "current_drawables.h"
 #include "elf_symbols.h"
-#include "entry_points.h"
+#include "gl_calls.h"
 #include "gl_hooks.h"
 #include "presenting.h"
-
-void* tp_on_get_proc_address(void* real, const char* name) {
-  if (real == NULL) return NULL;
-  void* answer = ((void* (*)(const char*))real)(name);
-  return tp_answer_get_proc_address(name, answer, real);
-}
 
 tp_egl_boolean tp_on_egl_swap(void* real, tp_display display, tp_egl_surface surface) {
   struct TilepressPresent present = {

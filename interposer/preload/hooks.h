@@ -10,7 +10,6 @@ typedef unsigned long tp_glx_drawable;  // GLXDrawable, an XID
 typedef unsigned tp_egl_boolean;        // EGLBoolean
 typedef int32_t tp_egl_int;             // EGLint
 
-void* tp_on_get_proc_address(void* real, const char* name);
 tp_egl_boolean tp_on_egl_swap(void* real, tp_display display, tp_egl_surface surface);
 tp_egl_boolean tp_on_egl_swap_with_damage(void* real, tp_display display, tp_egl_surface surface,
                                           const tp_egl_int* rectangles, tp_egl_int count);

@@ -1,4 +1,5 @@
-// Load list: found by the debugger's symbols of the dynamic linker, otherwise by the program's dynamic section.
+// Load list: found by the debugger's symbols of the dynamic linker, otherwise by the program's dynamic
+// section.
 #include "load_list.h"
 
 #include <elf.h>

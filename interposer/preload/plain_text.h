@@ -1,5 +1,5 @@
-// Plain text: string functions of our own. The program, or a sanitizer that is not ready yet, may define the C
-// library's.
+// Plain text: string functions of our own. The program, or a sanitizer that is not ready yet, may define the
+// C library's.
 #pragma once
 
 #include <stdbool.h>

@@ -9,13 +9,15 @@
 #include "engine_loader.h"
 #include "session_file.h"
 
-void* (*tp_driver_lookup[TILEPRESS_API_COUNT])(const char* name);
+static const char* via = "preload";
+static void* (*driver_lookup[TILEPRESS_API_COUNT])(const char* name);
 
-// Depth of presenting calls on this thread. A driver or another shim may present through a hooked function.
+// 1 inside a presenting call of this thread: a driver or another shim may present through a hooked function.
 static __thread int depth __attribute__((tls_model("initial-exec")));
 
-// A program of the thread sanitizer defines these. The sanitizer does not see how the driver's threads synchronize:
-// it would report what the engine calls in the driver as races, and the program would end with its status.
+// Programs of the thread sanitizer define these. The sanitizer does not see how the driver's threads
+// synchronize. Without these calls it reports races in the driver, and the program ends with the sanitizer's
+// status.
 #define WEAK __attribute__((weak))
 extern WEAK void AnnotateIgnoreReadsBegin(const char* file, int line);
 extern WEAK void AnnotateIgnoreReadsEnd(const char* file, int line);
@@ -29,12 +31,12 @@ static void ignore_races(bool begin) {
   if (writes != NULL) writes(__FILE__, __LINE__);
 }
 
-// What the engine's work must not change.
+// What the engine must leave as it is.
 struct thread_state {
   int error, cancel_state;
 };
 
-// Precondition of both: the C library is known.
+// Both require that the C library has been found.
 static struct thread_state save_thread(void) {
   const struct tp_c_library* library = tp_c_library();
   struct thread_state state = {*library->errno_location(), 0};
@@ -51,15 +53,21 @@ static void restore_thread(struct thread_state state) {
   *library->errno_location() = state.error;
 }
 
+void tp_come_through_glvnd(enum TilepressApi api, void* (*look_up)(const char* name)) {
+  via = "glvnd";
+  driver_lookup[api] = look_up;
+}
+
 bool tp_presenting(struct TilepressPresent* present) {
   if (depth > 0 || present->real == NULL || tp_c_library() == NULL) return false;
   const struct thread_state state = save_thread();
   depth = 1;
-  present->via = tp_via;
-  present->look_up = tp_driver_lookup[present->api];
-  // There every library is looked up at once, used or not: what tells is the call.
+  present->via = via;
+  present->look_up = driver_lookup[present->api];
+  // libglvnd looks up every name at once, used or not. So the call is noted, not the lookup.
   if (present->look_up != NULL)
-    tp_session_note(present->api == TILEPRESS_EGL ? "eglSwapBuffers" : "glXSwapBuffers", tp_via);
+    tp_session_note(present->api == TILEPRESS_EGL ? TP_ENTRY_eglSwapBuffers : TP_ENTRY_glXSwapBuffers,
+                    TP_WAY_GLVND);
   const struct TilepressEngine* engine = tp_engine();
   const bool taken = engine != NULL && engine->begin(present) != 0;
   depth = taken ? 1 : 0;
@@ -78,9 +86,9 @@ void tp_gl_called(struct TilepressGlCall* call) {
   if (depth > 0 || tp_c_library() == NULL) return;
   const struct thread_state state = save_thread();
   depth = 1;
-  call->via = tp_via;
+  call->via = via;
   call->context_destroyed = tp_current_context_is_destroyed();
-  for (int api = 0; api < TILEPRESS_API_COUNT; ++api) call->look_up[api] = tp_driver_lookup[api];
+  for (int api = 0; api < TILEPRESS_API_COUNT; ++api) call->look_up[api] = driver_lookup[api];
   const struct TilepressEngine* engine = tp_engine();
   if (engine != NULL) engine->gl_call(call);
   depth = 0;

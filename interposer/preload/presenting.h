@@ -5,25 +5,23 @@
 
 #include "../engine_contract.h"
 
-// The name of this road in, as in run.json: each library that links the hooks defines its own.
-extern const char* const tp_via;
+// Called by a vendor library: from now on calls of `api` come through libglvnd, and `look_up` returns the
+// driver's functions, because no public library answers for the driver there. Without it the road is
+// "preload".
+void tp_come_through_glvnd(enum TilepressApi api, void* (*look_up)(const char* name));
 
-// By enum TilepressApi: how the engine finds the driver's functions where the driver is called without its
-// public library; NULL where that library answers.
-extern void* (*tp_driver_lookup[TILEPRESS_API_COUNT])(const char* name);
-
-// Before the real call. True if tp_presented must be called after it; false for calls from inside a
-// presenting call (drivers implement one through another) and where nothing is captured.
+// Call before the real call. Returns true if tp_presented must follow the real call. Returns false inside
+// another presenting call (drivers implement one through another) and where nothing is captured.
 bool tp_presenting(struct TilepressPresent* present);
 
-// After the real call.
+// Call after the real call. `success`: the frame was presented.
 void tp_presented(struct TilepressPresent* present, bool success);
 
-// Before a watched GL call; `call` lacks via and look_up.
+// Call before a watched GL call. Fills in the context_destroyed, via and look_up of `call`.
 void tp_gl_called(struct TilepressGlCall* call);
-// Where this thread's draw calls leave their mark; NULL where nothing is captured.
+// Returns where this thread's draw calls leave their mark; NULL where nothing is captured.
 uint8_t* tp_gl_drawn_mark(void);
 
-// The program is about to destroy a context of `display` (NULL: all of them), or a surface.
+// Call before the program destroys a context of `display` (`context` NULL: all of them), or a surface.
 void tp_contexts_going(uint32_t api, void* display, void* context);
 void tp_surface_going(void* display, uintptr_t surface);

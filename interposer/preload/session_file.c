@@ -8,10 +8,9 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 
-#include "entry_points.h"
+#include "../system_calls.h"
 #include "environment.h"
 #include "plain_text.h"
-#include "../system_calls.h"
 
 extern char* program_name __asm__("program_invocation_short_name") __attribute__((weak));
 
@@ -85,7 +84,7 @@ static void send_line(const char* folder, const struct tp_text* line) {
   tp_close(out);
 }
 
-static void append_line(const char* folder, const char* entry, const char* road) {
+static void append_line(const char* folder, const char* entry, const char* way) {
   char path_bytes[4096], line_bytes[256];
   struct tp_text path = {path_bytes, sizeof path_bytes, 0, false};
   tp_append(&path, folder);
@@ -95,7 +94,7 @@ static void append_line(const char* folder, const char* entry, const char* road)
   struct tp_text line = {line_bytes, sizeof line_bytes, 0, false};
   if (&program_name != NULL && program_name != NULL)
     for (size_t i = 0; i < 100 && program_name[i] != 0; ++i) tp_append_part(&line, program_name + i, 1);
-  const char* const parts[] = {" ", entry, " ", road, "\n"};
+  const char* const parts[] = {" ", entry, " ", way, "\n"};
   for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) tp_append(&line, parts[i]);
   if (path.cut || line.cut) return;
   const int failure = append(path_bytes, &line);
@@ -105,16 +104,14 @@ static void append_line(const char* folder, const char* entry, const char* road)
     send_line(folder, &line);
 }
 
-void tp_session_note(const char* entry, const char* road) {
-  static unsigned noted[TP_ENTRY_COUNT];
-  const int index = tp_find_entry(entry);
-  static const char kQuiet[][24] = {"Destroy", "Terminate", "OSMesaGetProcAddress", "glfw"};
-  for (int i = 0; i < 4; ++i)
-    if (tp_contains(entry, kQuiet[i])) return;
-  const unsigned bit = road[0] == 'l' ? 1 : road[0] == 'd' ? 2 : road[0] == 'u' ? 4 : road[1] == 'e' ? 8 : 16;
-  if (index < 0 || (__atomic_fetch_or(&noted[index], bit, __ATOMIC_RELAXED) & bit) != 0) return;
+void tp_session_note(enum tp_entry entry, enum tp_way way) {
+  static const char kWays[TP_WAY_COUNT][16] = {"link", "dlsym", "getprocaddress", "glvnd", "unhooked"};
+  static unsigned noted[TP_ENTRY_COUNT];  // a bit per way
+  if (tp_entry_kinds[entry] == TP_DESTROYS || tp_entry_kinds[entry] == TP_SERVES_OSMESA) return;
+  const unsigned bit = 1u << way;
+  if ((__atomic_fetch_or(&noted[entry], bit, __ATOMIC_RELAXED) & bit) != 0) return;
   const char* folder = tp_environment("TILEPRESS_SESSION");
-  if (folder != NULL) append_line(folder, entry, road);
+  if (folder != NULL) append_line(folder, tp_entry_names[entry], kWays[way]);
 }
 
 void tp_session_log(const char* text) {

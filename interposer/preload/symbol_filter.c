@@ -6,8 +6,8 @@
 
 #include "c_library.h"
 #include "elf_symbols.h"
-#include "entry_points.h"
 #include "gl_hooks.h"
+#include "hook_bank.h"
 #include "plain_text.h"
 #include "session_file.h"
 
@@ -52,11 +52,8 @@ static void* look_past_us(void* handle, const char* name, const char* version, c
   return look_up(RTLD_NEXT, name, version);  // nothing, and dlerror says so
 }
 
-// Our own exports, also where the program defines functions of these names.
-extern __attribute__((visibility("hidden"))) char tp_dlsym[], tp_dlvsym[];
-
-// A dlsym of the program's own finds the one beneath with dlvsym, because the C library's has a version. Ours has
-// none and would be passed by: it stands in for what it forwards to.
+// A dlsym of the program's own finds the one beneath with dlvsym, because the C library's has a version. Ours
+// has none and would be passed by: it stands in for what it forwards to.
 static void* own_lookup(void* handle, const char* name, const char* version, const void* caller) {
   if (version == NULL || handle != RTLD_NEXT || name == NULL || !tp_starts_with(name, "dl")) return NULL;
   const bool plain = tp_compare(name, "dlsym") == 0;
@@ -64,7 +61,7 @@ static void* own_lookup(void* handle, const char* name, const char* version, con
   const struct tp_c_library* library = tp_c_library();
   void* const beneath = plain ? (void*)library->next_dlsym : (void*)library->next_dlvsym;
   if (library->dlvsym(handle, name, version) != beneath) return NULL;
-  return plain ? tp_dlsym : tp_dlvsym;
+  return tp_symbol_in_object_of((const void*)&own_lookup, name);
 }
 
 static struct tp_verdict decide(void* handle, const char* name, const char* version, const void* caller,
@@ -90,7 +87,7 @@ static struct tp_verdict decide(void* handle, const char* name, const char* vers
     const bool osmesa = tp_symbol_in_object_of(real, "OSMesaMakeCurrent") != NULL;
     return (struct tp_verdict){NULL, tp_gl_answer(gl, real, osmesa)};
   }
-  tp_session_note(name, "dlsym");
+  tp_session_note((enum tp_entry)entry, TP_WAY_DLSYM);
   return (struct tp_verdict){NULL, tp_bind((enum tp_entry)entry, real)};
 }
 

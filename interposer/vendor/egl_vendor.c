@@ -7,9 +7,8 @@
 #include <stddef.h>
 
 #include "../preload/c_library.h"
-#include "../preload/entry_points.h"
 #include "../preload/environment.h"
-#include "../preload/gl_hooks.h"
+#include "../preload/hook_bank.h"
 #include "../preload/presenting.h"
 
 // libglvnd takes a library once: behind several of its vendor files stand as many copies, each with a driver
@@ -24,11 +23,7 @@
 static void* (*driver_get_proc_address)(const char* name);
 
 static void* get_proc_address(const char* name) {
-  void* real = driver_get_proc_address(name);
-  const int entry = real != NULL ? tp_find_entry(name) : -1;
-  const int gl = real != NULL && entry < 0 ? tp_find_gl(name) : -1;
-  if (gl >= 0) return tp_gl_answer(gl, real, false);
-  return entry >= 0 && entry != TP_EGL_GET_PROC_ADDRESS ? tp_bind((enum tp_entry)entry, real) : real;
+  return tp_answer_vendor(name, driver_get_proc_address(name));
 }
 
 __attribute__((visibility("default"))) EGLBoolean __egl_Main(uint32_t version, const __EGLapiExports* exports,
@@ -42,9 +37,7 @@ __attribute__((visibility("default"))) EGLBoolean __egl_Main(uint32_t version, c
   __PFNEGLMAINPROC driver_main = (__PFNEGLMAINPROC)library->dlsym(driver, __EGL_MAIN_PROTO_NAME);
   if (driver_main == NULL || !driver_main(version, exports, vendor, imports)) return EGL_FALSE;
   driver_get_proc_address = imports->getProcAddress;
-  tp_driver_lookup[TILEPRESS_EGL] = imports->getProcAddress;
+  tp_come_through_glvnd(TILEPRESS_EGL, imports->getProcAddress);
   imports->getProcAddress = get_proc_address;
   return EGL_TRUE;
 }
-
-const char* const tp_via = "glvnd";

@@ -5,21 +5,15 @@
 #include <stddef.h>
 
 #include "../preload/c_library.h"
-#include "../preload/entry_points.h"
 #include "../preload/environment.h"
-#include "../preload/gl_hooks.h"
+#include "../preload/hook_bank.h"
 #include "../preload/plain_text.h"
 #include "../preload/presenting.h"
 
 static void* (*driver_get_proc_address)(const GLubyte* name);
 
 static void* get_proc_address(const GLubyte* name) {
-  void* real = driver_get_proc_address(name);
-  const int entry = real != NULL ? tp_find_entry((const char*)name) : -1;
-  const int gl = real != NULL && entry < 0 ? tp_find_gl((const char*)name) : -1;
-  if (gl >= 0) return tp_gl_answer(gl, real, false);
-  const int looks_up = entry == TP_GLX_GET_PROC_ADDRESS || entry == TP_GLX_GET_PROC_ADDRESS_ARB;
-  return entry >= 0 && !looks_up ? tp_bind((enum tp_entry)entry, real) : real;
+  return tp_answer_vendor((const char*)name, driver_get_proc_address(name));
 }
 
 static void* look_up(const char* name) {
@@ -27,7 +21,8 @@ static void* look_up(const char* name) {
 }
 
 __attribute__((visibility("default"))) Bool __glx_Main(uint32_t version, const __GLXapiExports* exports,
-                                                       __GLXvendorInfo* vendor_info, __GLXapiImports* imports) {
+                                                       __GLXvendorInfo* vendor_info,
+                                                       __GLXapiImports* imports) {
   const struct tp_c_library* library = tp_c_library();
   const char* vendor = tp_environment("TILEPRESS_GLX_VENDOR");
   char bytes[256];
@@ -40,9 +35,7 @@ __attribute__((visibility("default"))) Bool __glx_Main(uint32_t version, const _
   __PFNGLXMAINPROC driver_main = (__PFNGLXMAINPROC)library->dlsym(driver, __GLX_MAIN_PROTO_NAME);
   if (driver_main == NULL || !driver_main(version, exports, vendor_info, imports)) return False;
   driver_get_proc_address = imports->getProcAddress;
-  tp_driver_lookup[TILEPRESS_GLX] = look_up;
+  tp_come_through_glvnd(TILEPRESS_GLX, look_up);
   imports->getProcAddress = get_proc_address;
   return True;
 }
-
-const char* const tp_via = "glvnd";

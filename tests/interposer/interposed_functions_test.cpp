@@ -1,6 +1,7 @@
 // Interposed functions: programs and libraries that define functions of the C library meet the shim unharmed.
 #include <gtest/gtest.h>
 
+#include <set>
 #include <sstream>
 
 #include "expected_picture.h"
@@ -36,6 +37,29 @@ TEST_P(HookLibrary, RunsNothingWhenItIsLoaded) {
   ASSERT_TRUE(dynamic.exited_with(0)) << dynamic.err;
   for (const char* absent : {"(INIT)", "(FINI)", "(INIT_ARRAY)", "(FINI_ARRAY)", "IRELATIV", "(RELR)", "TEXTREL"})
     EXPECT_EQ(dynamic.out.find(absent), std::string::npos) << absent;
+}
+
+/// What `library` must export.
+std::set<std::string> exports_of(const std::string& library) {
+  if (library == "libEGL_tilepress.so.0") return {"__egl_Main"};
+  if (library == "libGLX_tilepress.so.0") return {"__glx_Main"};
+  std::set<std::string> names = {"dlsym", "dlvsym", "_exit", "_Exit", "__asan_default_options"};
+#define TP_ENTRY(name, ...) names.insert(#name);
+#include "interposer/preload/entry_points.def"
+#define TP_GL_TRIGGER(name, kind) names.insert(#name);
+#define TP_GL_TARGET(name, kind) \
+  if (library == "libtilepress-preload-gl.so") names.insert(#name);
+#include "interposer/preload/gl_names.def"
+  return names;
+}
+
+TEST_P(HookLibrary, ExportsTheNamesOfTheListsAndNoOther) {
+  const ProcessResult listed = run_process({"nm", "-D", "--defined-only", "--format=posix", path()}, {});
+  ASSERT_TRUE(listed.exited_with(0)) << listed.err;
+  std::istringstream lines(listed.out);
+  std::set<std::string> found;
+  for (std::string line; std::getline(lines, line);) found.insert(line.substr(0, line.find(' ')));
+  EXPECT_EQ(found, exports_of(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, HookLibrary,

@@ -16,10 +16,13 @@ static void show(const char* what, void* handle, const char* name) {
 
 int main(void) {
   void* self = dlopen(NULL, RTLD_NOW);
-  const char* names[] = {"eglSwapBuffers",   "eglSwapBuffersWithDamageKHR",
-                         "glXSwapBuffers",   "eglGetProcAddress",
-                         "no_such_function", "printf",
-                         "eglQueryString"};
+  const char* names[] = {
+#define TP_ENTRY(name, ...) #name,
+#include "interposer/preload/entry_points.def"
+#define TP_GL_TRIGGER(name, kind) #name,
+#define TP_GL_TARGET(name, kind) #name,
+#include "interposer/preload/gl_names.def"
+      "no_such_function", "printf", "eglQueryString"};
   for (unsigned i = 0; i < sizeof names / sizeof *names; ++i) {
     show("default", RTLD_DEFAULT, names[i]);
     show("next", RTLD_NEXT, names[i]);

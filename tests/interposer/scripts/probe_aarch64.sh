@@ -15,13 +15,14 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 
 flags=(-std=gnu11 -O2 -fPIC -Wall -Wextra -Werror -fvisibility=hidden -I"$root" -I"$root/interposer")
+$compiler -E -P -x c "$root/interposer/preload/exports.map.in" -o exports.map
 $compiler "${flags[@]}" -ffreestanding -fno-tree-loop-distribute-patterns -fno-stack-protector \
   -fno-optimize-sibling-calls -mno-outline-atomics -nostartfiles -shared "$root"/interposer/preload/*.c "$root"/interposer/preload/*.S \
-  -Wl,--version-script="$root/interposer/preload/preload.map" -Wl,-z,defs -ldl -lpthread -o libtilepress-preload.so
+  -Wl,--version-script=exports.map -Wl,-z,defs -ldl -lpthread -o libtilepress-preload.so
 $compiler -fPIC -shared -Wl,-soname,libEGL.so.1 "$programs/stub_egl.c" -o libEGL.so.1
 $compiler -fPIC -shared "$programs/next_second.c" -o libnext_second.so
 $compiler -fPIC -shared "$programs/next_first.c" -o libnext_first.so -ldl
-$compiler "$programs/lookup_probe.c" -o lookup_probe -L. -Wl,--no-as-needed -lnext_first -lnext_second -ldl
+$compiler -I"$root" "$programs/lookup_probe.c" -o lookup_probe -L. -Wl,--no-as-needed -lnext_first -lnext_second -ldl
 
 run() { # run OUTPUT [NAME=VALUE]...: status 5 is the probe's own
   local output=$1 status=0 environment=()
