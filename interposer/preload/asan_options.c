@@ -1,8 +1,8 @@
-// ASan options: the address sanitizer's shared runtime (gcc's, clang's -shared-libsan) ends a program in
-// which another library was loaded before it, and a preloaded library always is. It has a flag for
-// preloading, and asks this function for flags before it reads ASAN_OPTIONS. Reaches programs whose parent
-// has set that variable itself. The program's own definition comes first; the launcher sets the variable for
-// those that have one.
+// ASan options: the address sanitizer's shared runtime (gcc's, and clang's with -shared-libsan) ends a
+// program in which another library was loaded first. A preloaded library always is. The runtime has a flag
+// for this case, and calls this function for flags before it reads ASAN_OPTIONS. The launcher sets that
+// variable too. The function serves programs whose parent replaces the variable. A program's own definition
+// comes first.
 #include <stddef.h>
 
 #include "c_library.h"

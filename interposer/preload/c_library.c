@@ -1,4 +1,4 @@
-// C library: glibc before 2.34 has dlsym in libdl, later in libc; musl names its library after the machine.
+// C library: glibc before 2.34 has dlsym in libdl, later in libc. musl names its library after the machine.
 #include "c_library.h"
 
 #include <stddef.h>
@@ -20,7 +20,7 @@ static bool is_of_c_library(const struct link_map* entry) {
          tp_starts_with(file, "ld-musl");
 }
 
-// In load order from `entry` on.
+// Searches in load order from `entry` on.
 static void* find_from(const struct link_map* entry, const char* name, bool any_library) {
   for (; entry != NULL; entry = entry->l_next) {
     const struct tp_object object = object_of(entry);
@@ -67,10 +67,10 @@ const struct tp_c_library* tp_c_library(void) {
     return NULL;
   *(void**)&library.next_dlsym = find_from(own->l_next, "dlsym", true);
   if (library.dlvsym != NULL) *(void**)&library.next_dlvsym = find_from(own->l_next, "dlvsym", true);
-  // A library that the program has opened stands behind the C library.
+  // If the program opened this library with dlopen, it stands behind the C library.
   if (library.next_dlsym == NULL) library.next_dlsym = library.dlsym;
   if (library.next_dlvsym == NULL) library.next_dlvsym = library.dlvsym;
-  known = library;  // of several threads each writes the same
+  known = library;  // two threads write the same bytes
   __atomic_store_n(&found, true, __ATOMIC_RELEASE);
   return &known;
 }

@@ -1,6 +1,6 @@
-// C library: the functions of the C library that the shim calls, found in its symbol table. Their names are
-// not used: a sanitizer, a shell or the program itself may define functions of these names, and may not be
-// ready to be called when a library looks a symbol up.
+// C library: its functions that the shim calls, found in its symbol table. The shim does not call them by
+// name: a sanitizer, a shell or the program may define functions of these names, and a sanitizer's are not
+// ready for calls while it looks symbols up.
 #pragma once
 
 #include <stdbool.h>
@@ -15,7 +15,7 @@ struct tp_c_library {
   bool is_glibc;  // the engine needs glibc
   tp_dlsym_function dlsym;
   tp_dlvsym_function dlvsym;  // NULL in musl
-  // What a call of these names would reach without this library: another interposer's, or the two above.
+  // What a call would reach without this library: another interposer's function, or the two above.
   tp_dlsym_function next_dlsym;
   tp_dlvsym_function next_dlvsym;
   void* (*dlopen)(const char* file, int flags);
@@ -26,9 +26,9 @@ struct tp_c_library {
   int* (*errno_location)(void);
 };
 
-// NULL only where the C library cannot be found. Allocates nothing, takes no lock.
+// Returns NULL only if the C library cannot be found. Allocates nothing and takes no lock.
 const struct tp_c_library* tp_c_library(void);
 
-// The first function `name` of the objects behind this library in load order, among those that the program
-// started with: what the program's call would reach if this library did not define it. Looks it up each time.
+// Returns the function that a call of `name` would reach if this library did not define it: the first behind
+// this library in load order, among the objects that the program started with. Looks it up each time.
 void* tp_function_behind_ours(const char* name);

@@ -1,5 +1,5 @@
-// What is current: a row per thread that has a drawable. Of a thread that ends with a context current the
-// row stays, as does the driver's.
+// Current drawables: a row per thread that has a drawable. If a thread ends with a context current, its row
+// stays. So does the driver's context.
 #include "current_drawables.h"
 
 enum { ROWS = 128 };
@@ -9,8 +9,8 @@ static struct {
   uintptr_t draw, read, context;
   int context_destroyed;
 } rows[ROWS];
-static int rows_missing;  // threads without a row: from then on nobody knows
-static __thread int own_row __attribute__((tls_model("initial-exec")));  // 0: none, else its number + 1
+static int rows_missing;  // 1 once a thread found no row: the rows are incomplete from then on
+static __thread int own_row __attribute__((tls_model("initial-exec")));  // number of the row + 1; 0 = none
 
 void tp_made_current(uintptr_t draw, uintptr_t read, uintptr_t context) {
   for (int row = 0; draw != 0 && own_row == 0 && row < ROWS; ++row) {

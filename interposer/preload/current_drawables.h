@@ -1,19 +1,18 @@
-// Current drawables: which GLX drawables each thread has current, for presents by a thread that has not; and
-// whether a thread's context is destroyed, which lives on until another is made current.
+// Current drawables: which GLX drawables each thread has current. A present from another thread needs this. A
+// destroyed context lives on until its thread makes another one current; this is recorded too.
 #pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
 
-// The calling thread has made these current; 0 = none.
+// Call after the calling thread has made these current; 0 = none.
 void tp_made_current(uintptr_t draw, uintptr_t read, uintptr_t context);
 
-// The program is about to destroy `context`, on whichever thread it is current.
+// Call before the program destroys `context`, on whichever thread it is current.
 void tp_context_destroyed(uintptr_t context);
 
-// True if the context that the calling thread has current on a drawable is destroyed: asking the X server for
-// it would be an error.
+// Returns true if the calling thread's current context is destroyed: a request for it is an X error.
 bool tp_current_context_is_destroyed(void);
 
-// True if a thread other than the calling one has `drawable` current, or if nobody can know.
+// Returns true if another thread has `drawable` current, or may have it because the rows are incomplete.
 bool tp_is_current_elsewhere(uintptr_t drawable);

@@ -1,4 +1,4 @@
-// Trampolines (AArch64): as on x86-64. x16 carries the jump, so that the real function's "bti c" accepts it.
+// Trampolines (AArch64): like those for x86-64. x16 carries the jump, so that the real function's "bti c" accepts it.
 #if defined(__aarch64__)
   .text
   .macro trampoline function, filter, caller_register

@@ -1,5 +1,5 @@
-// Trampolines (x86-64): dlsym and dlvsym ask the filter, then jump to the real function with the caller's stack and
-// return address untouched, because the real ones read their return address to know who asks (RTLD_NEXT).
+// Trampolines (x86-64): dlsym and dlvsym call the filter, then jump to the real function with the caller's stack and
+// return address. The real functions identify their caller by the return address (RTLD_NEXT).
 #if defined(__x86_64__)
 #if __has_include(<cet.h>)
 #include <cet.h>

@@ -1,4 +1,4 @@
-// ELF symbols: walks over the loaded objects while the dynamic linker holds its list still.
+// ELF symbols: walks over the loaded objects. The dynamic linker keeps its list unchanged meanwhile.
 #define _GNU_SOURCE
 #include "elf_symbols.h"
 
@@ -13,13 +13,13 @@
 #include "plain_text.h"
 
 struct search {
-  const char* name;    // symbol wanted
-  const void* inside;  // an address in the object wanted; NULL = any object
-  const void* except;  // an address in an object to leave out
+  const char* name;    // symbol to find
+  const void* inside;  // an address in the object to search; NULL = any object
+  const void* except;  // an address in an object to skip
   bool skip_ours;
   int position;
   void* found;
-  struct tp_text* path;  // where to copy the path of the object wanted
+  struct tp_text* path;  // receives the path of the object
 };
 
 static bool holds(const struct dl_phdr_info* object, const void* address) {

@@ -1,4 +1,4 @@
-// ELF tables: gABI chapter 5, and the GNU hash table.
+// ELF tables: reads the symbol table and both kinds of hash table (gABI chapter 5; GNU).
 #include "elf_tables.h"
 
 #include <elf.h>
@@ -8,17 +8,18 @@
 
 #include "plain_text.h"
 
-enum { kHiddenVersion = 0x8000 };  // in the version table: not the default one
+enum { kHiddenVersion = 0x8000 };  // a bit of the version table: not the default version
 
 struct dynamic_tables {
   const ElfW(Sym) * symbols;
   const char* strings;
   const uint32_t* gnu_hash;
   const uint32_t* hash;
-  const uint16_t* versions;  // NULL: every definition will do
+  const uint16_t* versions;  // NULL: accept every version
 };
 
-// glibc rewrites these addresses when it loads an object, musl does not, nor does glibc in the vDSO.
+// glibc turns these offsets into addresses when it loads an object. musl does not, nor does glibc in the
+// vDSO.
 static const void* table_address(const struct tp_object* object, ElfW(Addr) value) {
   return (const void*)(value < object->base ? object->base + value : value);
 }

@@ -46,14 +46,15 @@ static void load(void) {
   static struct TilepressHost host = {TILEPRESS_ENGINE_VERSION, NULL, tp_path_of_object};
   host.dlsym = library->dlsym;
   const struct TilepressEngine* engine = entry != NULL ? entry(&host) : NULL;
-  if (engine == NULL) report("of another version");
+  if (engine == NULL) report("its version does not match the preloaded library");
   __atomic_store_n(&loaded, engine, __ATOMIC_RELEASE);
 }
 
 const struct TilepressEngine* tp_engine(void) {
-  enum { kUntried = 0, kTried = -1 };
-  static int
-      state;  // otherwise the process that is trying: a forked child does not wait for its parent's thread
+  enum { kTried = -1 };
+  // 0, kTried, or the id of the process that loads the engine now. A forked child does not wait for its
+  // parent.
+  static int state;
   int seen = __atomic_load_n(&state, __ATOMIC_ACQUIRE);
   while (seen != kTried) {
     const int process = tp_process_id();

@@ -3,8 +3,9 @@
 
 #include "../engine_contract.h"
 
-// The engine; NULL if there is nowhere to write to (TILEPRESS_OUT), or if it could not be loaded.
+// Returns the engine and loads it first if need be. Returns NULL if TILEPRESS_OUT is not set or loading
+// failed.
 const struct TilepressEngine* tp_engine(void);
 
-// The engine if it has been loaded already.
+// Returns the engine if it is loaded, else NULL.
 const struct TilepressEngine* tp_loaded_engine(void);

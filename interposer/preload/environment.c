@@ -1,4 +1,4 @@
-// Environment: walks over environ.
+// Environment: searches environ.
 #include "environment.h"
 
 #include <stddef.h>

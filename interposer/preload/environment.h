@@ -1,5 +1,5 @@
-// Environment: variables of the process, read without getenv, which shells and sandboxes define themselves.
+// Environment: reads variables without getenv. Shells and sandboxes define a getenv of their own.
 #pragma once
 
-// The value of a variable; NULL if it is not set or empty.
+// Returns the value of a variable; NULL if it is not set or empty.
 const char* tp_environment(const char* name);

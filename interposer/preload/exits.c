@@ -1,4 +1,4 @@
-// Exits: programs that end by _exit run no destructor. Their last frames are written first.
+// Exits: a program that ends by _exit runs no destructor. The engine writes its last frames first.
 #define _GNU_SOURCE
 #include <stdlib.h>
 #include <unistd.h>
@@ -9,7 +9,7 @@
 
 typedef void (*exit_function)(int status);
 
-// The next definition may be a sanitizer's, which reports what it has found and may change the status.
+// The next definition may be a sanitizer's. It prints its report and may change the status.
 __attribute__((noreturn)) static void drain_and_exit(const char* name, int status) {
   const struct TilepressEngine* engine = tp_loaded_engine();
   if (engine != NULL) engine->finish();

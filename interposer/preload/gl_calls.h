@@ -24,8 +24,8 @@ extern const char tp_gl_names[TP_GL_NAMES][TP_GL_NAME_SIZE];
 
 // Returns true if the options ask for calls of `kind`.
 bool tp_gl_is_wanted(uint64_t kind);
-// Returns true for the calls that --trigger names: these are exported always, and OSMesa's programs need some
-// of them.
+// Returns true for the kinds of --trigger. Their names are always exported; OSMesa needs two without an
+// option.
 bool tp_gl_is_trigger(uint64_t kind);
 
 // A hook of glXMakeCurrent and the like reports its call. `arguments`: as in TilepressGlCall.

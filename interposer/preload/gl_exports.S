@@ -1,4 +1,4 @@
-// GL exports: the names that callers linked to a GL library reach, each in front of the slot of its own number.
+// GL exports: the names that linked callers reach. Each enters the slot of its number in gl_names.def.
 #if __has_include(<cet.h>)
 #include <cet.h>
 #endif

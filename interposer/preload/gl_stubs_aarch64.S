@@ -1,4 +1,4 @@
-// GL stubs (AArch64): as on x86-64. x16 carries the jump, so that the real function's "bti c" accepts it.
+// GL stubs (AArch64): like those for x86-64. x16 carries the jump, so that the real function's "bti c" accepts it.
 #if defined(__aarch64__)
 #include "gl_slots.h"
 
@@ -72,7 +72,7 @@ tp_gl_enter:
   .cfi_endproc
   .size tp_gl_enter, .-tp_gl_enter
 
-// The pool: stubs of equal size that are bound to functions found by lookups.
+// The pool: stubs of equal size, bound to functions that lookups find.
   .globl tp_gl_pool
   .hidden tp_gl_pool
   .type tp_gl_pool, @function

@@ -1,5 +1,5 @@
-// GL stubs (x86-64): what stands in front of a watched GL function. A stub needs no signature: it notes the call,
-// restores every argument register and jumps to the real function with the caller's stack and return address.
+// GL stubs (x86-64): a stub stands in front of a watched GL function and needs no signature. It reports the call,
+// restores every argument register, and jumps to the real function with the caller's stack and return address.
 #if defined(__x86_64__)
 #if __has_include(<cet.h>)
 #include <cet.h>
@@ -10,7 +10,7 @@
 #include "gl_slots.h"
 
   .text
-// r11: number of the slot {real function, kind}. A call that is not wanted costs a load, a test and two jumps.
+// r11: number of the slot {real function, kind}. An unwatched call costs a load, a test and two jumps.
   .globl tp_gl_enter
   .hidden tp_gl_enter
   .type tp_gl_enter, @function
@@ -84,7 +84,7 @@ tp_gl_enter:
   .cfi_endproc
   .size tp_gl_enter, .-tp_gl_enter
 
-// The pool: stubs of equal size that are bound to functions found by lookups.
+// The pool: stubs of equal size, bound to functions that lookups find.
   .globl tp_gl_pool
   .hidden tp_gl_pool
   .type tp_gl_pool, @function

@@ -11,10 +11,11 @@
 #include "session_file.h"
 
 enum { kBankSize = 8 };  // hooks of an entry point
-#define EACH_SLOT(DO, ...)                                                                       \
-  DO(0, __VA_ARGS__)                                                                             \
-  DO(1, __VA_ARGS__) DO(2, __VA_ARGS__) DO(3, __VA_ARGS__) DO(4, __VA_ARGS__) DO(5, __VA_ARGS__) \
-      DO(6, __VA_ARGS__) DO(7, __VA_ARGS__)
+// clang-format off
+#define EACH_SLOT(DO, ...)                                                    \
+  DO(0, __VA_ARGS__) DO(1, __VA_ARGS__) DO(2, __VA_ARGS__) DO(3, __VA_ARGS__) \
+  DO(4, __VA_ARGS__) DO(5, __VA_ARGS__) DO(6, __VA_ARGS__) DO(7, __VA_ARGS__)
+// clang-format on
 
 static void* real_functions[TP_ENTRY_COUNT][kBankSize];  // filled from the front, never emptied
 

@@ -1,5 +1,6 @@
-// Hooks: before, forward, after, return the driver's value. Nothing is called in GL or EGL after the real
-// call, so that its error is the one the program reads.
+// Hooks: each calls the engine, then the real function, then the engine, and returns the real function's
+// value. After the real call a hook calls neither GL nor EGL: the program must read the error of its own
+// call.
 #include "hooks.h"
 
 #include <stddef.h>
@@ -114,7 +115,7 @@ int tp_on_glx_make_context_current(void* real, tp_display display, tp_glx_drawab
   return result;
 }
 
-// OSMesa presents nothing: a frame ends where the program finishes or flushes, or with glfwSwapBuffers.
+// OSMesa has no presenting call: glFinish, glFlush or glfwSwapBuffers ends a frame.
 
 unsigned char tp_on_osmesa_make_current(void* real, tp_context context, void* buffer, unsigned type,
                                         int width, int height, void* caller) {
@@ -141,7 +142,7 @@ void tp_on_osmesa_destroy_context(void* real, tp_context context) {
   ((void (*)(tp_context))real)(context);
 }
 
-// With EGL or GLX beneath, GLFW's call ends in theirs.
+// Where GLFW uses EGL or GLX, its call ends in theirs, and the thread has no OSMesa context.
 void tp_on_glfw_swap(void* real, void* window) {
   struct TilepressPresent present = {.api = TILEPRESS_OSMESA, .real = tp_gl_osmesa()};
   if (real == NULL) return;
@@ -150,7 +151,7 @@ void tp_on_glfw_swap(void* real, void* window) {
   if (taken) tp_presented(&present, true);
 }
 
-// What we keep for a display or a surface goes before the real call, while the handles are still good.
+// The engine lets go of what it keeps before the real call, while the handles are still valid.
 
 tp_egl_boolean tp_on_egl_destroy_context(void* real, tp_display display, tp_context context) {
   if (real == NULL) return 0;

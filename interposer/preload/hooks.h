@@ -1,4 +1,4 @@
-// Hooks: one per entry point, each forwarding to the real function it is given.
+// Hooks: each forwards to the real function `real`, and returns 0, NULL or -1 if `real` is NULL.
 #pragma once
 
 #include <stdint.h>
@@ -24,7 +24,7 @@ int tp_on_glx_make_context_current(void* real, tp_display display, tp_glx_drawab
                                    tp_context context);
 void tp_on_osmesa_destroy_context(void* real, tp_context context);
 void* tp_on_osmesa_get_proc_address(void* real, const char* name);
-// `caller`: an address in the code that calls.
+// `caller`: an address in the calling code.
 unsigned char tp_on_osmesa_make_current(void* real, tp_context context, void* buffer, unsigned type,
                                         int width, int height, void* caller);
 void tp_on_glfw_swap(void* real, void* window);

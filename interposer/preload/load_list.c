@@ -1,4 +1,4 @@
-// Load list: found by the debugger's symbols of the dynamic linker, otherwise by the program's dynamic
+// Load list: found through the dynamic linker's symbols for debuggers, else through the program's dynamic
 // section.
 #include "load_list.h"
 
@@ -8,17 +8,17 @@
 
 #include "../system_calls.h"
 
-// As glibc's struct r_debug_extended, which older headers lack. musl has the members before `next`.
+// glibc's struct r_debug_extended, which older headers lack. musl has the members before `next`.
 struct debugger_view {
   int version;
   struct link_map* first;
   ElfW(Addr) breakpoint;
   int state;
   ElfW(Addr) linker_base;
-  struct debugger_view* next;  // of another namespace; from version 2 on
+  struct debugger_view* next;  // another namespace; exists from version 2 on
 };
 
-// Weak: each C library has one of them.
+// Weak: a C library has one of the two.
 extern struct debugger_view glibc_view __asm__("_r_debug") __attribute__((weak));
 extern struct debugger_view* musl_view __asm__("_dl_debug_addr") __attribute__((weak));
 
@@ -43,7 +43,7 @@ static uintptr_t view_in(const ElfW(Phdr) * header, size_t count) {
   return 0;
 }
 
-// The dynamic linker leaves the address of its list in the program's own dynamic section.
+// The dynamic linker writes the address of its list into the program's dynamic section.
 static const struct debugger_view* view_of_program(void) {
   ElfW(auxv_t) vector[64];
   const int file = tp_open("/proc/self/auxv", O_RDONLY, 0);

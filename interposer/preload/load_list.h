@@ -1,9 +1,9 @@
 // Load list: the objects of the process in load order, as the dynamic linker shows them to debuggers. Reading
-// the list calls no function of another library, works before this library is relocated, and takes no lock.
+// the list calls no function of another library, takes no lock, and works before this library is relocated.
 #pragma once
 
 #include <link.h>
 
-// This library's own entry; NULL if no list that holds it can be found. Only the entries of objects that the
-// program started with may be read: others can go at any time.
+// Returns this library's own entry, or NULL if no list holds it. Read only the entries of objects that the
+// program started with: others can disappear at any time.
 const struct link_map* tp_own_entry(void);

@@ -1,5 +1,5 @@
-// Plain memory: the functions that the compiler calls by itself to copy and clear. Hidden, so that the
-// program's own definitions are not called.
+// Plain memory: the functions that the compiler itself calls to copy and clear. They are hidden, so that no
+// call reaches the program's own definitions.
 #include <stddef.h>
 #include <stdint.h>
 

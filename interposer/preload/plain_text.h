@@ -1,5 +1,5 @@
-// Plain text: string functions of our own. The program, or a sanitizer that is not ready yet, may define the
-// C library's.
+// Plain text: string functions. The C library's may be replaced by the program's, or by those of a sanitizer
+// that is not ready yet.
 #pragma once
 
 #include <stdbool.h>
@@ -11,7 +11,7 @@ static inline size_t tp_length(const char* text) {
   return length;
 }
 
-// As strcmp.
+// Returns what strcmp returns.
 static inline int tp_compare(const char* a, const char* b) {
   while (*a != 0 && *a == *b) ++a, ++b;
   return (int)(unsigned char)*a - (int)(unsigned char)*b;
@@ -29,7 +29,7 @@ static inline bool tp_contains(const char* text, const char* part) {
   }
 }
 
-// The part of a path behind its last slash.
+// Returns the part of a path behind its last slash.
 static inline const char* tp_base_name(const char* path) {
   const char* base = path;
   for (; *path != 0; ++path)
@@ -37,7 +37,7 @@ static inline const char* tp_base_name(const char* path) {
   return base;
 }
 
-// A text in a buffer of the caller's. `length` stays below `size`; what does not fit marks the text as cut.
+// A text in the caller's buffer, always with a zero behind it. `cut`: an appended part did not fit.
 struct tp_text {
   char* bytes;
   size_t size, length;

@@ -1,4 +1,4 @@
-// Presenting: keeps errno and cancellation away from the program's sight while the engine works.
+// Presenting: saves errno and disables cancellation while the engine works.
 #include "presenting.h"
 
 #include <pthread.h>

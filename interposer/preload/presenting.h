@@ -1,4 +1,4 @@
-// Presenting: the bracket that every hook of a presenting call puts around the real call.
+// Presenting: the calls of the engine that hooks put around the real calls.
 #pragma once
 
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-// Session file: one short line per entry point and road, written with plain system calls.
+// Session file: writes its lines with system calls of its own.
 #define _GNU_SOURCE
 #include "session_file.h"
 
@@ -14,8 +14,8 @@
 
 extern char* program_name __asm__("program_invocation_short_name") __attribute__((weak));
 
-// A program that has closed a standard stream still writes to its number: a file of ours never keeps such a
-// number. `made` = the file was not there before. Returns a negative errno on failure.
+// Returns a descriptor, or a negative errno. Sets `made` if it created the file. The descriptor is above 2: a
+// program that has closed a standard stream may still write to that number.
 static int open_to_append(const char* path, bool* made) {
   const int flags = O_WRONLY | O_APPEND;
   *made = false;
@@ -36,13 +36,13 @@ static int append(const char* path, const struct tp_text* line) {
   bool made;
   const int file = open_to_append(path, &made);
   if (file < 0) return file;
-  if (made) tp_system_call(SYS_fchmod, file, 0666, 0, 0);  // processes of other users may have the same pid
-  tp_write(file, line->bytes, line->length);               // the line is a courtesy to the launcher
+  if (made) tp_system_call(SYS_fchmod, file, 0666, 0, 0);  // another user's process may have the same pid
+  tp_write(file, line->bytes, line->length);               // on failure the launcher misses a line, no more
   tp_close(file);
   return 0;
 }
 
-// The text without its newline, as the target of a link: this takes no descriptor.
+// Makes a symbolic link with the line, without its newline, as target. This takes no descriptor.
 static void link_line(const char* folder, struct tp_text* line, const char* extension) {
   line->bytes[line->length - 1] = 0;
   for (unsigned number = 0; number < 64; ++number) {
@@ -59,7 +59,7 @@ static void link_line(const char* folder, struct tp_text* line, const char* exte
   }
 }
 
-// A system call filter may answer socket() by a signal.
+// A system call filter may answer socket() with a signal.
 static bool calls_are_unfiltered(void) {
   char text[4096];
   const int file = tp_open("/proc/self/status", O_RDONLY, 0);

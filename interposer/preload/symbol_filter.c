@@ -1,4 +1,4 @@
-// Symbol filter: decides, for every dlsym and dlvsym of the process, who answers.
+// Symbol filter: decides what each dlsym and dlvsym of the process returns.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdbool.h>
@@ -11,14 +11,15 @@
 #include "plain_text.h"
 #include "session_file.h"
 
-// What the trampoline does next: jump to the real function with stack and registers as its caller left them,
-// or return `answer`. (Returned in two registers on x86-64 and AArch64.)
+// What the trampoline does next: it jumps to `jump_to` with its caller's stack and registers, or returns
+// `answer` if `jump_to` is NULL. Both machines pass this struct in two registers.
 struct tp_verdict {
   void* jump_to;
   void* answer;
 };
 
-// With any handle but RTLD_NEXT, which is relative to who calls, another interposer's answer counts too.
+// RTLD_NEXT is relative to the caller, so the C library answers it. For other handles another interposer may
+// answer.
 static void* look_up(void* handle, const char* name, const char* version) {
   const struct tp_c_library* library = tp_c_library();
   const bool next = handle == RTLD_NEXT;
@@ -26,34 +27,34 @@ static void* look_up(void* handle, const char* name, const char* version) {
   return (next ? library->dlsym : library->next_dlsym)(handle, name);
 }
 
-// An ANGLE handle is left alone: ANGLE's frames are seen one level down, at the library it draws with.
+// ANGLE's functions stay as they are: the shim sees ANGLE's frames at the GL library beneath.
 static bool is_angle(const void* function) {
   return tp_symbol_in_object_of(function, "eglStreamPostD3DTextureANGLE") != NULL ||
          tp_symbol_in_object_of(function, "ANGLEGetDisplayPlatform") != NULL;  // its libGLESv2
 }
 
-// RTLD_NEXT finds our export only where the caller stands before us in load order.
+// RTLD_NEXT finds our export only if the caller stands before us in load order.
 static bool next_is_ours(const void* caller) {
   const int position = tp_load_position(caller);
   return position >= 0 && position < tp_load_position((const void*)&next_is_ours);
 }
 
-// The lookup would have found our own export: what would it have found without us?
+// The lookup found our own export. Returns what it would have found without the shim.
 static void* look_past_us(void* handle, const char* name, const char* version, const void* caller) {
   void* found = look_up(RTLD_NEXT, name, version);
   if (found != NULL || handle != RTLD_DEFAULT) return found;
-  // The caller may be a plugin with libraries of its own, which the global scope does not show.
+  // The caller may be a plugin with libraries of its own, which are not in the global scope.
   void* object = tp_handle_of_object(caller);
   if (object != NULL) found = look_up(object, name, version);
   if (found != NULL && !tp_is_ours(found)) {
-    tp_c_library()->dlerror();  // a success leaves no message behind
+    tp_c_library()->dlerror();  // a successful lookup leaves no message
     return found;
   }
-  return look_up(RTLD_NEXT, name, version);  // nothing, and dlerror says so
+  return look_up(RTLD_NEXT, name, version);  // finds nothing and sets dlerror
 }
 
-// A dlsym of the program's own finds the one beneath with dlvsym, because the C library's has a version. Ours
-// has none and would be passed by: it stands in for what it forwards to.
+// A program with its own dlsym finds the next one with dlvsym, because the C library's has a version. Ours
+// has none, so the lookup skips it. Returns ours if the lookup finds what ours forwards to, else NULL.
 static void* own_lookup(void* handle, const char* name, const char* version, const void* caller) {
   if (version == NULL || handle != RTLD_NEXT || name == NULL || !tp_starts_with(name, "dl")) return NULL;
   const bool plain = tp_compare(name, "dlsym") == 0;
@@ -78,7 +79,7 @@ static struct tp_verdict decide(void* handle, const char* name, const char* vers
     real = look_past_us(handle, name, version, caller);
   } else {
     real = look_up(handle, name, version);
-    if (real == NULL) return forward;  // the real function says so again, with the caller's own dlerror
+    if (real == NULL) return forward;  // the real function fails once more and sets dlerror
     if (tp_is_ours(real)) real = look_past_us(handle, name, version, caller);
   }
   if (real == NULL) return (struct tp_verdict){NULL, NULL};
@@ -91,7 +92,7 @@ static struct tp_verdict decide(void* handle, const char* name, const char* vers
   return (struct tp_verdict){NULL, tp_bind((enum tp_entry)entry, real)};
 }
 
-// Called by the trampolines only.
+// The trampolines call these two.
 struct tp_verdict tp_filter_dlsym(void* handle, const char* name, const void* caller) {
   const struct tp_c_library* library = tp_c_library();
   return decide(handle, name, NULL, caller, library != NULL ? (void*)library->next_dlsym : NULL);

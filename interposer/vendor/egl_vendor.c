@@ -1,6 +1,5 @@
-// EGL vendor: the second road in. libglvnd's libEGL loads this in place of the driver; it passes the driver
-// on and wraps what presents. Reaches programs that a preloaded library cannot: plugins opened with
-// RTLD_DEEPBIND.
+// EGL vendor: libglvnd's libEGL loads this library in place of the driver's. It loads the driver, and puts
+// hooks in front of the driver's presenting calls. This also reaches plugins opened with RTLD_DEEPBIND.
 #include <EGL/egl.h>
 #include <dlfcn.h>
 #include <glvnd/libeglabi.h>
@@ -11,8 +10,8 @@
 #include "../preload/hook_bank.h"
 #include "../preload/presenting.h"
 
-// libglvnd takes a library once: behind several of its vendor files stand as many copies, each with a driver
-// of its own. Where the first is told no driver it is Mesa's.
+// libglvnd loads a library only once. So each of its vendor files names a copy of this library, and each copy
+// has a variable with its driver. The first copy falls back to Mesa.
 #ifndef TP_DRIVER_VARIABLE
 #define TP_DRIVER_VARIABLE "TILEPRESS_EGL_VENDOR"
 #define TP_DRIVER_ELSE "libEGL_mesa.so.0"

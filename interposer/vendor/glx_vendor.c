@@ -1,4 +1,4 @@
-// GLX vendor: as the EGL vendor, for libglvnd's libGLX.
+// GLX vendor: like the EGL vendor, for libglvnd's libGLX.
 #include <GL/glx.h>
 #include <dlfcn.h>
 #include <glvnd/libglxabi.h>
