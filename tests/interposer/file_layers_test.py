@@ -21,14 +21,15 @@ def included(folders):
 def used(objects):
     """Yields (file, other, symbol) for every global symbol that one object file takes from another."""
     owner, uses = {}, []
-    for path in objects:
+    listed = subprocess.run(["nm", "-A", "-P", "-g", *objects], capture_output=True, text=True, check=True).stdout
+    for line in listed.splitlines():
+        path, symbol = line.rsplit(": ", 1)
         stem = Path(path).name.split(".")[0]  # CMake calls it NAME.c.o
-        lines = subprocess.run(["nm", "-P", "-g", path], capture_output=True, text=True, check=True).stdout
-        for name, kind in (line.split()[:2] for line in lines.splitlines()):
-            if kind in "Uvw":
-                uses.append((stem, name))
-            else:
-                owner[name] = stem
+        name, kind = symbol.split()[:2]
+        if kind in "Uvw":
+            uses.append((stem, name))
+        else:
+            owner[name] = stem
     for stem, name in uses:
         if name in owner:
             yield stem, owner[name], name
