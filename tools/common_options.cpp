@@ -1,119 +1,92 @@
-// Common options: CLI11 options that fill RunOptions through set_run_option.
+// Common options: CLI11 options made from the table of run options.
 #include "common_options.h"
 
 #include <string>
 #include <vector>
 
+#include "tilepress/run_option_table.h"
+
 namespace tilepress {
 namespace {
 
-constexpr const char* kFramesText = "Only these frames, as 0-99,200 (default: every frame)";
-
-void set_or_throw(RunOptions& options, const std::string& name, const std::string& value) {
-  std::string error;
-  if (!set_run_option(options, name, value, error)) throw CLI::ValidationError("--" + error);
+void set_or_throw(RunOptions& options, const RunOption& option, const std::string& value) {
+  if (const auto set = set_run_option(options, option.name, value); !set)
+    throw CLI::ValidationError("--" + set.error().text);
 }
 
-CLI::Option* add_text(CLI::App& app, RunOptions& options, const std::string& flags, const std::string& name,
-                      const std::string& metavar, const std::string& text) {
-  return app
-      .add_option_function<std::string>(
-          flags, [&options, name](const std::string& value) { set_or_throw(options, name, value); }, text)
-      ->type_name(metavar);
+/// An option that may be given several times: its values make one list.
+CLI::Option* add_list(CLI::App& app, RunOptions& options, const RunOption& option, const std::string& help) {
+  const auto set = [&options, &option](const std::vector<std::string>& values) {
+    std::string list;
+    for (const std::string& value : values) list += (list.empty() ? "" : std::string(1, option.joint)) + value;
+    if (list.empty())
+      throw CLI::ValidationError("--" + std::string(option.name) + " '': must be " + std::string(option.range));
+    set_or_throw(options, option, list);
+  };
+  return app.add_option_function<std::vector<std::string>>(std::string(option.flags), set, help)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
 }
 
 }  // namespace
 
-void add_model_options(CLI::App& app, RunOptions& options, const std::string& scheme_text) {
-  app.add_option_function<std::vector<std::string>>(
-         "-s,--scheme",
-         [&options](const std::vector<std::string>& specs) {
-           std::string list;
-           for (const std::string& spec : specs) list += (list.empty() ? "" : " ") + spec;
-           set_or_throw(options, "scheme", list);
-         },
-         scheme_text)
-      ->type_name("SPEC")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
-  add_text(app, options, "--tile", "tile", "N",
-           "Side of a render tile in pixels, a multiple of 8 (default: 32)");
-  add_text(app, options, "--burst", "burst", "BITS", "DRAM transfer unit, a power of two (default: 128)");
-  add_text(app, options, "--frames", "frames", "RANGES", kFramesText);
-  add_text(app, options, "--every", "every", "N", "Only every N-th frame");
+void add_run_option(CLI::App& app, RunOptions& options, std::string_view name, const std::string& help) {
+  const RunOption& option = *find_run_option(name);
+  const std::string flags(option.flags), text = help.empty() ? std::string(option.help) : help;
+  const auto set = [&](const std::string& value) { set_or_throw(options, option, value); };
+  if (option.metavar.empty())
+    app.add_flag_callback(flags, [=] { set("1"); }, text);
+  else if (option.joint != 0)
+    add_list(app, options, option, text)->type_name(std::string(option.metavar));
+  else
+    app.add_option_function<std::string>(flags, set, text)->type_name(std::string(option.metavar));
+}
+
+void add_model_options(CLI::App& app, RunOptions& options, const std::string& scheme_help) {
+  add_run_option(app, options, "scheme", scheme_help);
+  for (const char* name : {"tile", "burst", "frames", "every"}) add_run_option(app, options, name);
 }
 
 void add_run_options(CLI::App& app, RunOptions& options) {
   if (options.output.empty()) options.output = "tilepress-out";
-  add_text(app, options, "-o,--output", "output", "DIR",
-           "Folder for the results (default: " + options.output + ")");
+  add_run_option(app, options, "output",
+                 std::string(find_run_option("output")->help) + " (default: " + options.output + ")");
   add_model_options(app, options);
-  app.add_flag_callback(
-      "--verify", [&options] { options.model.verify = true; },
-      "Encode, decode and compare every block; a mismatch is exit 1");
-  add_text(app, options, "--heatmaps", "heatmaps", "every:N",
-           "Keep the bits of each block of every N-th frame, as DIR/heatmaps/*.pgm");
-  add_text(app, options, "--dump-frames", "dump-frames", "every:N",
-           "Keep the pixels of every N-th frame, as DIR/frames/*.png");
-  add_text(app, options, "--log-level", "log-level", "LEVEL",
-           "trace, debug, info, warn, error or off (default: warn)");
+  for (const char* name : {"verify", "heatmaps", "dump-frames", "log-level"})
+    add_run_option(app, options, name);
 }
 
 void add_capture_options(CLI::App& app, RunOptions& options) {
-  app.add_option_function<std::vector<std::string>>(
-         "--trigger",
-         [&options](const std::vector<std::string>& calls) {
-           std::string list;
-           for (const std::string& call : calls) list.append(list.empty() ? "" : ",").append(call);
-           set_or_throw(options, "trigger", list.empty() ? "none" : list);
-         },
-         "GL calls that end a frame beside the presenting ones, for programs that present nothing: of the "
-         "bound "
-         "framebuffer; a list with commas")
-      ->type_name("finish|flush|readpixels")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
-  add_text(app, options, "--targets", "targets", "presented|all",
-           "What is presented, or also each image of the program's own framebuffers, a surface of its own "
-           "(default: "
-           "presented)");
-  add_text(app, options, "--readback", "readback", "auto|sync|async|in-context",
-           "Read frames at once, through pixel buffers, or in the program's own context (default: auto, as the "
-           "first frames of a window show)");
-}
-
-void add_on_full_option(CLI::App& app, RunOptions& options) {
-  add_text(app, options, "--on-full", "on-full", "block|drop",
-           "When frames come faster than they are compressed: hold the program, or drop and count (default: "
-           "block)");
+  for (const char* name : {"on-full", "trigger", "targets", "readback"}) add_run_option(app, options, name);
 }
 
 void add_size_option(CLI::App& app, const std::string& name, std::optional<FrameSize>& size,
-                     const std::string& text) {
+                     const std::string& help) {
   app.add_option_function<std::string>(
          "--" + name,
          [&size, name](const std::string& value) {
            size = parse_frame_size(value);
            if (!size)
-             throw CLI::ValidationError("--" + name + " " + value + ": not WxH with sides in 1..65535");
+             throw CLI::ValidationError("--" + name + " " + value + ": must be WxH with sides in 1..65535");
          },
-         text)
+         help)
       ->type_name("WxH");
 }
 
-void add_frames_option(CLI::App& app, FrameSet& frames) {
-  app.add_option_function<std::string>(
-         "--frames",
-         [&frames](const std::string& value) {
-           std::string error;
-           const auto set = FrameSet::parse(value, error);
-           if (!set) throw CLI::ValidationError("--frames " + value + ": " + error);
-           frames = *set;
-         },
-         kFramesText)
-      ->type_name("RANGES");
+CLI::Option* add_frames_option(CLI::App& app, FrameSet& frames, const std::string& name,
+                               const std::string& help) {
+  const RunOption& option = *find_run_option("frames");
+  return app
+      .add_option_function<std::string>(
+          "--" + name,
+          [&frames, name](const std::string& value) {
+            const auto set = FrameSet::parse(value);
+            if (!set) throw CLI::ValidationError("--" + name + " " + value + ": " + set.error().text);
+            frames = *set;
+          },
+          help.empty() ? std::string(option.help) : help)
+      ->type_name(std::string(option.metavar));
 }
 
 }  // namespace tilepress

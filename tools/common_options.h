@@ -1,38 +1,37 @@
-// Common options: what run, replay and frames share on the command line (spec §12).
+// Common options: options that several verbs share on the command line (spec §12).
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "frames/image_frames.h"
 #include "tilepress/run_options.h"
 
 namespace tilepress {
 
-/// Values are checked while they are parsed and land in `options`, which must outlive `app`'s parsing. A bad
-/// value is a CLI11 validation error: one line, exit status 2.
+// The options write into `options`, `size` or `frames`, which must outlive the parsing by `app`. A bad value is
+// a CLI11 validation error: one line, exit status 2. An empty `help` stands for the text of the table.
+
+/// Adds one option of the table of run options. Precondition: the table has the option, with flags.
+void add_run_option(CLI::App& app, RunOptions& options, std::string_view name, const std::string& help = "");
 
 /// Adds -s/--scheme, --tile, --burst, --frames and --every.
-void add_model_options(
-    CLI::App& app, RunOptions& options,
-    const std::string& scheme_text =
-        "Scheme as name:key=value,... ; repeat for more (default: all seven; see tilepress schemes)");
+void add_model_options(CLI::App& app, RunOptions& options, const std::string& scheme_help = "");
 
-/// The same and -o/--output, --verify, --heatmaps, --dump-frames and --log-level.
+/// Adds -o/--output, the model options, --verify, --heatmaps, --dump-frames and --log-level.
 void add_run_options(CLI::App& app, RunOptions& options);
 
-/// Adds --trigger and --targets, for verbs that capture running programs.
+/// Adds --on-full, --trigger, --targets and --readback, for verbs that capture running programs.
 void add_capture_options(CLI::App& app, RunOptions& options);
-
-/// Adds --on-full, for verbs that capture running programs.
-void add_on_full_option(CLI::App& app, RunOptions& options);
 
 /// Adds --NAME WxH.
 void add_size_option(CLI::App& app, const std::string& name, std::optional<FrameSize>& size,
-                     const std::string& text);
+                     const std::string& help);
 
-/// Adds --frames RANGES, for verbs without a run's other options.
-void add_frames_option(CLI::App& app, FrameSet& frames);
+/// Adds --NAME RANGES, for verbs without a run's other options.
+CLI::Option* add_frames_option(CLI::App& app, FrameSet& frames, const std::string& name = "frames",
+                               const std::string& help = "");
 
 }  // namespace tilepress

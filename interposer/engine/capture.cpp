@@ -44,13 +44,13 @@ std::string damage_text(const TilepressPresent& present) {
 }  // namespace
 
 Capture::Capture(const TilepressHost& host) : host_(host), pid_(getpid()), times_(pid_) {
-  std::string error;
-  enabled_ = from_environment(options_, error) && !options_.output.empty();
+  const Result<void> read = from_environment(options_);
+  enabled_ = read && !options_.output.empty();
   const char* wish = std::getenv("TILEPRESS_CAPTURE");
   counting_only_ = wish != nullptr && std::strcmp(wish, "off") == 0;
   if (const char* target = std::getenv("TILEPRESS_SIMD")) force_simd_target(target);  // unknown: the best one
   log_ = std::make_unique<ShimLog>(options_.log_file, options_.log_level);
-  if (!error.empty()) log_->write(LogLevel::kError, error);
+  if (!read) log_->write(LogLevel::kError, read.error().text);
   readback_ = std::make_unique<ReadbackChoices>(options_.readback);
   start_ns_ = now_ns();
 }

@@ -1,7 +1,6 @@
 // Present times: rows appended from the presenting threads.
 #include "interposer/engine/present_times.h"
 
-#include <cerrno>
 #include <cstdlib>
 #include <string>
 
@@ -14,15 +13,18 @@ PresentTimes::PresentTimes(int64_t pid) {
   const std::string header = "surface,begin_ns,hook_ns\n";
   std::string name = stem + ".times";
   // In another PID namespace a process may have the same number.
-  for (int suffix = 2; !file_.create(name, header) && errno == EEXIST; ++suffix)
+  Result<void> made = file_.create(name, header);
+  for (int suffix = 2; !made && made.error().kind == ErrorKind::kExists; ++suffix) {
     name = stem + "-" + std::to_string(suffix) + ".times";
+    made = file_.create(name, header);
+  }
 }
 
 void PresentTimes::note(uintptr_t surface, uint64_t begin_ns, uint64_t hook_ns) {
   const std::string row =
       std::to_string(surface) + "," + std::to_string(begin_ns) + "," + std::to_string(hook_ns) + "\n";
   const std::lock_guard lock(mutex_);
-  file_.append(row);
+  (void)file_.append(row);
 }
 
 }  // namespace tilepress

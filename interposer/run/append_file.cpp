@@ -8,6 +8,7 @@
 #include <cerrno>
 
 #include "run/descriptors.h"
+#include "tilepress/file_error.h"
 #include "tilepress/run_lock.h"
 
 namespace tilepress {
@@ -15,7 +16,7 @@ namespace {
 
 constexpr int kLowestDescriptor = 200;
 
-/// Opens with a high number if the process may have one.
+/// Opens the file with a high number where the process may have one.
 int open_high(const std::string& path, int flags) {
   return open_above_streams(path, flags | O_WRONLY | O_APPEND, 0644, kLowestDescriptor);
 }
@@ -31,22 +32,22 @@ bool AppendFile::is_this_file() const {
   return fstat(fd_, &status) == 0 && status.st_dev == device_ && status.st_ino == inode_;
 }
 
-bool AppendFile::create(const std::string& path, const std::string& header) {
+Result<void> AppendFile::create(const std::string& path, const std::string& header) {
   path_ = path;
   fd_ = open_high(path, O_CREAT | O_EXCL);
-  if (fd_ < 0) return false;
+  if (fd_ < 0) return file_error(path);
   struct stat status;
-  if (fstat(fd_, &status) == 0) {
+  Result<void> begun = fstat(fd_, &status) == 0 ? Result<void>() : file_error(path);
+  if (begun) {
     device_ = status.st_dev;
     inode_ = status.st_ino;
-    if (append(header)) return true;
+    begun = append(header);
   }
-  const int error = errno;
+  if (begun) return {};
   close(fd_);
   fd_ = -1;
   unlink(path.c_str());
-  errno = error;
-  return false;
+  return begun;
 }
 
 void AppendFile::hold_lock() {
@@ -58,17 +59,21 @@ void AppendFile::release_lock_of_program() {
   if (is_open() && is_this_file()) release_program_lock(fd_);
 }
 
-bool AppendFile::append(const std::string& record) {
+Result<void> AppendFile::open_again() {
+  fd_ = open_high(path_, 0);
+  if (fd_ < 0) return file_error(path_);
   if (!is_this_file()) {
-    fd_ = open_high(path_, 0);
-    if (fd_ < 0 || !is_this_file()) {
-      if (fd_ >= 0) close(fd_);
-      fd_ = -1;
-      errno = EBADF;
-      return false;
-    }
-    if (holds_lock_) hold_run_lock(fd_);
+    close(fd_);
+    fd_ = -1;
+    return file_error(path_, EBADF);
   }
+  if (holds_lock_) hold_run_lock(fd_);
+  return {};
+}
+
+Result<void> AppendFile::append(const std::string& record) {
+  if (!is_this_file())
+    if (auto opened = open_again(); !opened) return opened;
   const off_t before = lseek(fd_, 0, SEEK_END);
   size_t done = 0;
   while (done < record.size()) {
@@ -78,12 +83,11 @@ bool AppendFile::append(const std::string& record) {
       const int error = written == 0 ? ENOSPC : errno;
       if (done > 0 && before >= 0 && ftruncate(fd_, before) != 0) { /* the reader drops a torn row */
       }
-      errno = error;
-      return false;
+      return file_error(path_, error);
     }
     done += static_cast<size_t>(written);
   }
-  return true;
+  return {};
 }
 
 }  // namespace tilepress

@@ -1,36 +1,36 @@
-// Append file: a file of a run that grows by whole records, inside a process whose descriptors are not ours
-// to rule.
+// Append file: a file of a run that grows by whole records, in a process that may close any descriptor.
 #pragma once
 
 #include <sys/types.h>
 
 #include <string>
 
+#include "tilepress/result.h"
+
 namespace tilepress {
 
-/// The program under the shim may close any descriptor and get its number for a file of its own: before each
-/// record the descriptor is checked to be still this file, and opened anew if not. The number lies above
-/// those programs use, so that a program which has closed its standard error does not write it here.
+/// The program under the shim may close any descriptor and get its number for a file of its own. So append()
+/// checks that the descriptor is still this file, and opens the file again if not. The number lies above
+/// those that programs use: a program that has closed its standard error does not write to this file.
 class AppendFile {
  public:
   AppendFile() = default;
   AppendFile(const AppendFile&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
   ~AppendFile();
-  /// Makes a new file that begins with `header`. False, with errno set and no file left, if it exists or
-  /// cannot be made.
-  bool create(const std::string& path, const std::string& header);
-  /// Appends all of `record` or nothing: what a full disk lets through is cut off again. False with errno
-  /// set.
-  bool append(const std::string& record);
+  /// Makes a new file that begins with `header`. On failure no new file is left. kExists: the name is taken.
+  Result<void> create(const std::string& path, const std::string& header);
+  /// Appends all of `record` or nothing: what a full disk lets through is cut off again.
+  Result<void> append(const std::string& record);
   bool is_open() const { return fd_ >= 0; }
-  /// Takes the run lock (run_lock.h) with this file, and again whenever it has to be opened anew.
+  /// Takes the run lock (run_lock.h) with this file, and again whenever the file is opened again.
   void hold_lock();
   /// Releases the part of the run lock that stands for the program.
   void release_lock_of_program();
 
  private:
   bool is_this_file() const;
+  Result<void> open_again();
   std::string path_;
   int fd_ = -1;
   bool holds_lock_ = false;

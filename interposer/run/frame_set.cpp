@@ -1,8 +1,8 @@
 // Frame set: the ranges of --frames.
+#include "tilepress/frame_set.h"
+
 #include <algorithm>
 #include <charconv>
-
-#include "tilepress/run_options.h"
 
 namespace tilepress {
 namespace {
@@ -14,28 +14,21 @@ bool parse_number(std::string_view text, uint64_t& out) {
 
 }  // namespace
 
-std::optional<FrameSet> FrameSet::parse(std::string_view text, std::string& error) {
+Result<FrameSet> FrameSet::parse(std::string_view text) {
   FrameSet set;
   for (size_t begin = 0; begin <= text.size();) {
     const size_t comma = std::min(text.find(',', begin), text.size());
     const std::string_view part = text.substr(begin, comma - begin);
     begin = comma + 1;
-    if (part.empty()) {
-      error = "empty range";
-      return std::nullopt;
-    }
+    if (part.empty()) return Error{ErrorKind::kBadValue, "empty range"};
     const size_t dash = part.find('-');
     const std::string_view first_text = part.substr(0, dash);
     const std::string_view last_text = dash == std::string_view::npos ? first_text : part.substr(dash + 1);
     Range range{};
-    if (!parse_number(first_text, range.first) || !parse_number(last_text, range.last)) {
-      error.assign(1, '\'').append(part).append("' is not a frame or a range of frames");
-      return std::nullopt;
-    }
-    if (range.first > range.last) {
-      error = "reversed range " + std::string(part);
-      return std::nullopt;
-    }
+    if (!parse_number(first_text, range.first) || !parse_number(last_text, range.last))
+      return Error{ErrorKind::kBadValue, "'" + std::string(part) + "' is not a frame or a range of frames"};
+    if (range.first > range.last)
+      return Error{ErrorKind::kBadValue, "reversed range " + std::string(part)};
     set.ranges_.push_back(range);
   }
   // Sorted and merged, so that contains() can search and text() is the shortest.

@@ -12,6 +12,7 @@
 #include "run/sequenced_words.h"
 #include "run/shared_file.h"
 #include "system_calls.h"
+#include "tilepress/file_error.h"
 
 namespace tilepress {
 namespace {
@@ -118,20 +119,17 @@ LiveReader::~LiveReader() {
   if (page_ != nullptr) munmap(page_, bytes_);
 }
 
-bool LiveReader::open(const std::string& run_path, std::string& error, bool asks_for_pictures) {
+Result<void> LiveReader::open(const std::string& run_path, bool asks_for_pictures) {
   const std::string path = run_path + "/" + kLiveFile;
+  const Error other_version{ErrorKind::kFile, path + ": not a live page of this version"};
   page_ = static_cast<LivePage*>(map_shared_file(path, sizeof(LivePage), asks_for_pictures, bytes_));
-  if (page_ == nullptr) {
-    error = path + ": " + (errno != 0 ? std::strerror(errno) : "not a live page of this version");
-    return false;
-  }
+  if (page_ == nullptr) return errno != 0 ? file_error(path) : other_version;
   uint64_t magic = 0;
   load_words(&page_->magic, &magic, 1);
-  if (magic == kMagic && page_->version == kLiveVersion && page_->size == sizeof(LivePage)) return true;
-  error = path + ": not a live page of this version";
+  if (magic == kMagic && page_->version == kLiveVersion && page_->size == sizeof(LivePage)) return {};
   munmap(page_, bytes_);
   page_ = nullptr;
-  return false;
+  return other_version;
 }
 
 bool LiveReader::read(LiveState& out) const {

@@ -1,12 +1,11 @@
 // Run directory: the writer's side. One write() per file and frame, schemes.csv before frames.csv.
 #include "tilepress/run_directory.h"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include "run/append_file.h"
 #include "run/run_json.h"
+#include "run/whole_file.h"
 #include "system_calls.h"
 #include "tilepress/run_reader.h"
 
@@ -25,7 +24,7 @@ bool RunWriter::is_open() const {
   return frames_->is_open();
 }
 
-bool RunWriter::create(const std::string& path, const RunInfo& info, const RunOptions& options) {
+Result<void> RunWriter::create(const std::string& path, const RunInfo& info, const RunOptions& options) {
   path_ = path;
   info_ = info;
   options_ = options;
@@ -38,19 +37,10 @@ bool RunWriter::create(const std::string& path, const RunInfo& info, const RunOp
 
   std::error_code code;
   std::filesystem::create_directories(path, code);
-  if (code) {
-    error_ = path + ": " + code.message();
-    return false;
-  }
-  if (holds_run(path)) {
-    error_ = path + ": already holds a run";
-    return false;
-  }
-  if (!schemes_->create(path + "/schemes.csv", schemes_csv_header()) ||
-      !frames_->create(path + "/frames.csv", frames_csv_header())) {
-    error_ = path + ": " + std::strerror(errno);
-    return false;
-  }
+  if (code) return Error{ErrorKind::kFile, path + ": " + code.message()};
+  if (holds_run(path)) return Error{ErrorKind::kExists, path + ": already holds a run"};
+  if (auto made = schemes_->create(path + "/schemes.csv", schemes_csv_header()); !made) return made;
+  if (auto made = frames_->create(path + "/frames.csv", frames_csv_header()); !made) return made;
   frames_->hold_lock();
   return write_json("running", "");
 }
@@ -59,19 +49,13 @@ void RunWriter::program_has_ended() {
   frames_->release_lock_of_program();
 }
 
-bool RunWriter::append(const FrameStatistics& frame) {
+Result<void> RunWriter::append(const FrameStatistics& frame) {
   row_buffer_.clear();
   append_schemes_rows(frame, scheme_names_, row_buffer_);
-  if (!schemes_->append(row_buffer_)) {
-    error_ = path_ + "/schemes.csv: " + std::strerror(errno);
-    return false;
-  }
+  if (auto appended = schemes_->append(row_buffer_); !appended) return appended;
   row_buffer_.clear();
   append_frames_row(frame, row_buffer_);
-  if (!frames_->append(row_buffer_)) {
-    error_ = path_ + "/frames.csv: " + std::strerror(errno);
-    return false;
-  }
+  if (auto appended = frames_->append(row_buffer_); !appended) return appended;
   if (!frame.warmup) {
     const bool target = is_target(frame.surface);
     ++(target ? measured_targets_ : measured_frames_);
@@ -80,32 +64,30 @@ bool RunWriter::append(const FrameStatistics& frame) {
   }
   // run.json only repeats what the rows hold. A program that has dropped privileges may append to open files
   // and no longer replace one.
-  if (clock_ns(CLOCK_MONOTONIC) - last_json_ns_ >= kJsonPeriodNs) write_json("running", "");
-  return true;
+  if (clock_ns(CLOCK_MONOTONIC) - last_json_ns_ >= kJsonPeriodNs) (void)write_json("running", "");
+  return {};
 }
 
 void RunWriter::set_counts(const RunCounts& counts, const RunCounts& targets) {
   counts_ = counts;
   target_counts_ = targets;
-  if (is_open() && clock_ns(CLOCK_MONOTONIC) - last_json_ns_ >= kJsonPeriodNs) write_json("running", "");
+  if (is_open() && clock_ns(CLOCK_MONOTONIC) - last_json_ns_ >= kJsonPeriodNs) (void)write_json("running", "");
 }
 
 void RunWriter::set_info(const RunInfo& info) {
   info_ = info;
 }
 
-bool RunWriter::finish(const std::string& state, const std::string& reason) {
-  return is_open() && write_json(state, reason);
+Result<void> RunWriter::finish(const std::string& state, const std::string& reason) {
+  if (!is_open()) return Error{ErrorKind::kFile, path_ + ": no run is open"};
+  return write_json(state, reason);
 }
 
-bool RunWriter::write_json(const std::string& state, const std::string& reason) {
+Result<void> RunWriter::write_json(const std::string& state, const std::string& reason) {
   last_json_ns_ = clock_ns(CLOCK_MONOTONIC);
-  const std::string text = run_json_text({state, reason, started_, info_, options_, counts_, measured_frames_,
-                                          totals_, target_counts_, measured_targets_, target_totals_});
-  std::string failure;
-  if (replace_file(path_ + "/run.json", text, failure)) return true;
-  error_ = path_ + "/run.json: " + failure;
-  return false;
+  return replace_file(path_ + "/run.json",
+                      run_json_text({state, reason, started_, info_, options_, counts_, measured_frames_,
+                                     totals_, target_counts_, measured_targets_, target_totals_}));
 }
 
 }  // namespace tilepress

@@ -1,18 +1,16 @@
 // Run JSON: nlohmann's ordered JSON, so that people find the members in the order of this file.
 #include "run/run_json.h"
 
-#include <fcntl.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
-#include "run/descriptors.h"
 #include "tilepress/cost_model.h"
+#include "tilepress/run_option_table.h"
 
 namespace tilepress {
 namespace {
@@ -37,18 +35,29 @@ Json counts_json(const RunCounts& counts) {
           {"not_captured", counts.not_captured}};
 }
 
+Json option_json(const RunOption& option, const std::string& value) {
+  switch (option.json_form) {
+    case JsonForm::kNumber:
+      return Json::parse(value);
+    case JsonForm::kBoolean:
+      return value == "1";
+    case JsonForm::kList: {
+      Json list = Json::array();
+      std::istringstream words(value);
+      for (std::string word; words >> word;) list.push_back(word);
+      return list;
+    }
+    default:
+      return value;
+  }
+}
+
 Json options_json(const RunOptions& options) {
-  Json schemes = Json::array();
-  for (const SchemeSpec& spec : options.schemes) schemes.push_back(spec.text);
-  return {{"schemes", schemes},
-          {"tile", options.model.tile_side},
-          {"burst", options.model.burst_bits},
-          {"verify", options.model.verify},
-          {"frames", options.frames.text()},
-          {"every", options.every},
-          {"on_full", options.on_full == OnFull::kBlock ? "block" : "drop"},
-          {"trigger", trigger_list(options.triggers)},
-          {"targets", options.all_targets ? "all" : "presented"}};
+  Json out = Json::object();
+  for (const RunOption& option : run_option_table())
+    if (option.json_form != JsonForm::kAbsent)
+      out[std::string(option.json_key)] = option_json(option, option.text.print(options));
+  return out;
 }
 
 /// What the powers of totals_json rest on.
@@ -174,12 +183,9 @@ std::string run_json_text(const RunDocument& document) {
   return dump(json);
 }
 
-bool read_run_json(std::string_view text, RunRecord& record, std::string& reason) {
+Result<void> read_run_json(std::string_view text, RunRecord& record) {
   const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) {
-    reason = "not a JSON object";
-    return false;
-  }
+  if (!json.is_object()) return Error{ErrorKind::kFile, "not a JSON object"};
   take(json, "state", record.state);
   take(json, "reason", record.reason);
   take(json, "started", record.started);
@@ -206,7 +212,7 @@ bool read_run_json(std::string_view text, RunRecord& record, std::string& reason
     take(*options, "schemes", record.scheme_names);
     take(*options, "burst", record.burst_bits);
   }
-  return true;
+  return {};
 }
 
 std::string finished_run_json(std::string_view text, const RunRecord& record, const RunEnd& end) {
@@ -232,25 +238,6 @@ std::string finished_run_json(std::string_view text, const RunRecord& record, co
     json["targets"] = targets_json(record.target_counts, record.measured_targets, record.scheme_names,
                                    record.target_totals);
   return dump(json);
-}
-
-bool replace_file(const std::string& path, std::string_view text, std::string& reason) {
-  const std::string beside = path + ".tmp";
-  const int fd = open_above_streams(beside, O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  bool good = fd >= 0;
-  while (good && !text.empty()) {
-    const ssize_t written = write(fd, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    good = written >= 0;
-    if (good) text.remove_prefix(static_cast<size_t>(written));
-  }
-  int error = errno;
-  if (fd >= 0) close(fd);
-  if (good && rename(beside.c_str(), path.c_str()) == 0) return true;
-  if (good) error = errno;
-  unlink(beside.c_str());
-  reason = std::strerror(error);
-  return false;
 }
 
 }  // namespace tilepress

@@ -30,9 +30,8 @@ struct RunDocument {
 
 std::string run_json_text(const RunDocument& document);
 
-/// Fills what `text` holds into `record`; members it lacks stay as they are. False and a reason if it is no
-/// JSON object.
-bool read_run_json(std::string_view text, RunRecord& record, std::string& reason);
+/// Fills `record` from `text`. Members that `text` lacks stay as they are. Fails if `text` is no JSON object.
+Result<void> read_run_json(std::string_view text, RunRecord& record);
 
 /// `text` with state, reason, end, counts and totals replaced by those of `record`; a document of its own if
 /// `text` is no JSON.
@@ -40,8 +39,5 @@ std::string finished_run_json(std::string_view text, const RunRecord& record, co
 
 /// Now, in UTC, ISO 8601 to the second.
 std::string utc_now();
-
-/// Replaces `path` with `text`: written beside it, then renamed. False and a reason on failure.
-bool replace_file(const std::string& path, std::string_view text, std::string& reason);
 
 }  // namespace tilepress

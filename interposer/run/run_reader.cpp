@@ -1,43 +1,25 @@
 // Run reader: CSV columns by name into statistics, and the repair of a run whose program was killed.
 #include "tilepress/run_reader.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <map>
 
 #include "run/run_json.h"
-#include "tilepress/session_mark.h"
+#include "run/whole_file.h"
 #include "tilepress/csv_reader.h"
 #include "tilepress/live_page.h"
 #include "tilepress/live_picture.h"
 #include "tilepress/scheme.h"
+#include "tilepress/session_mark.h"
 
 namespace tilepress {
 namespace {
 
 using FrameKey = std::pair<uint64_t, uint64_t>;  // surface, frame
-
-bool read_text(const std::string& path, std::string& text, std::string& reason) {
-  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) {
-    reason = std::strerror(errno);
-    return false;
-  }
-  text.clear();
-  char buffer[1 << 16];
-  ssize_t got = 0;
-  while ((got = read(fd, buffer, sizeof buffer)) > 0 || (got < 0 && errno == EINTR))
-    if (got > 0) text.append(buffer, static_cast<size_t>(got));
-  if (got < 0) reason = std::strerror(errno);
-  close(fd);
-  return got == 0;
-}
 
 /// The records of one file, their fields found by column name.
 class Table {
@@ -111,7 +93,7 @@ std::optional<PixelFormat> format_of(const std::string& name) {
   return std::nullopt;
 }
 
-bool read_frames(std::string_view text, RunRecord& out, std::string& error) {
+Result<void> read_frames(std::string_view text, RunRecord& out) {
   Table table(text);
   out.frames_bytes = table.offset();
   while (table.next()) {
@@ -134,18 +116,15 @@ bool read_frames(std::string_view text, RunRecord& out, std::string& error) {
     frame.encode_ns = table.number<uint64_t>("encode_ns");
     std::string fault = table.fault();
     if (fault.empty() && !format) fault = "unknown format " + table.text("format");
-    if (!fault.empty()) {
-      error = out.path + "/frames.csv: " + fault;
-      return false;
-    }
+    if (!fault.empty()) return Error{ErrorKind::kFile, std::move(fault)};
     frame.format = *format;
     out.frames.push_back(std::move(frame));
     out.frames_bytes = table.offset();
   }
-  return true;
+  return {};
 }
 
-bool read_schemes(std::string_view text, RunRecord& out, std::string& error) {
+Result<void> read_schemes(std::string_view text, RunRecord& out) {
   std::map<FrameKey, size_t> frame_index;
   for (size_t i = 0; i < out.frames.size(); ++i)
     frame_index[{out.frames[i].surface, out.frames[i].frame}] = i;
@@ -174,10 +153,7 @@ bool read_schemes(std::string_view text, RunRecord& out, std::string& error) {
         row.own[i] = table.number_or_zero<uint64_t>(info->columns[i]);
     row.checked_blocks = table.number_or_zero<uint64_t>("checked_blocks");
     row.mismatched_blocks = table.number_or_zero<uint64_t>("mismatched_blocks");
-    if (const std::string fault = table.fault(); !fault.empty()) {
-      error = out.path + "/schemes.csv: " + fault;
-      return false;
-    }
+    if (std::string fault = table.fault(); !fault.empty()) return Error{ErrorKind::kFile, std::move(fault)};
     if (frame == frame_index.end()) continue;
     out.schemes_bytes = table.offset();
     const auto [position, added] = scheme_index.try_emplace(name, out.scheme_names.size());
@@ -186,15 +162,15 @@ bool read_schemes(std::string_view text, RunRecord& out, std::string& error) {
     if (owner.schemes.size() <= position->second) owner.schemes.resize(position->second + 1);
     owner.schemes[position->second] = row;
   }
-  return true;
+  return {};
 }
 
-bool cut_file(const std::string& path, uint64_t end, std::string& error) {
+Result<void> cut_file(const std::string& path, uint64_t end) {
   std::error_code code;
   const uint64_t size = std::filesystem::file_size(path, code);
   if (!code && end < size) std::filesystem::resize_file(path, end, code);
-  if (code) error = path + ": " + code.message();
-  return !code;
+  if (code) return Error{ErrorKind::kFile, path + ": " + code.message()};
+  return {};
 }
 
 /// The rows count as captured, whatever the run last said of itself. `page`: what the program's own threads
@@ -220,25 +196,19 @@ bool holds_run(const std::string& path) {
   return false;
 }
 
-bool read_run(const std::string& path, RunRecord& out, std::string& error) {
-  out = RunRecord{};
+Result<RunRecord> read_run(const std::string& path) {
+  if (!holds_run(path)) return Error{ErrorKind::kFile, path + ": holds no run"};
+  RunRecord out;
   out.path = path;
-  if (!holds_run(path)) {
-    error = path + ": holds no run";
-    return false;
+  if (const auto json = read_whole_file(path + "/run.json"))
+    if (auto read = read_run_json(*json, out); !read) return about(path + "/run.json", read.error());
+  using Part = std::pair<const char*, Result<void> (*)(std::string_view, RunRecord&)>;
+  for (const auto& [name, read_rows] : {Part("frames.csv", read_frames), Part("schemes.csv", read_schemes)}) {
+    const std::string file = path + "/" + name;
+    const auto text = read_whole_file(file);
+    if (!text) return text.error();
+    if (auto read = read_rows(*text, out); !read) return about(file, read.error());
   }
-  std::string json, reason;
-  if (read_text(path + "/run.json", json, reason) && !read_run_json(json, out, reason)) {
-    error = path + "/run.json: " + reason;
-    return false;
-  }
-  const auto read_rows = [&](const char* name, bool (*read)(std::string_view, RunRecord&, std::string&)) {
-    std::string text;
-    if (read_text(path + "/" + name, text, reason)) return read(text, out, error);
-    error = path + "/" + name + ": " + reason;
-    return false;
-  };
-  if (!read_rows("frames.csv", read_frames) || !read_rows("schemes.csv", read_schemes)) return false;
 
   out.totals.assign(out.scheme_names.size(), SchemeStatistics{});
   for (SchemeStatistics& total : out.totals) total.burst_bits = out.burst_bits;
@@ -251,18 +221,17 @@ bool read_run(const std::string& path, RunRecord& out, std::string& error) {
     std::vector<SchemeStatistics>& totals = target ? out.target_totals : out.totals;
     for (size_t i = 0; i < frame.schemes.size(); ++i) totals[i] += frame.schemes[i];
   }
-  return true;
+  return out;
 }
 
-bool close_run(const RunEnd& end, RunRecord& record, std::string& error) {
+Result<void> close_run(const RunEnd& end, RunRecord& record) {
   const std::string& path = record.path;
-  if (!cut_file(path + "/frames.csv", record.frames_bytes, error)) return false;
-  if (!cut_file(path + "/schemes.csv", record.schemes_bytes, error)) return false;
+  if (auto cut = cut_file(path + "/frames.csv", record.frames_bytes); !cut) return cut;
+  if (auto cut = cut_file(path + "/schemes.csv", record.schemes_bytes); !cut) return cut;
   RunCounts presented, targets;
   {
     LiveReader page;
-    std::string no_page;
-    if (page.open(path, no_page)) {
+    if (page.open(path)) {
       presented = page.presented();
       targets = page.targets();
     }
@@ -279,11 +248,8 @@ bool close_run(const RunEnd& end, RunRecord& record, std::string& error) {
   for (const auto& member : end.further) record.info.further.push_back(member);
   settle(record.counts, presented, record.presented_frames());
   settle(record.target_counts, targets, record.frames.size() - record.presented_frames());
-  std::string json, reason;
-  read_text(path + "/run.json", json, reason);
-  if (replace_file(path + "/run.json", finished_run_json(json, record, end), reason)) return true;
-  error = path + "/run.json: " + reason;
-  return false;
+  const auto json = read_whole_file(path + "/run.json");
+  return replace_file(path + "/run.json", finished_run_json(json ? *json : "", record, end));
 }
 
 }  // namespace tilepress

@@ -5,10 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <filesystem>
 
 #include "run/descriptors.h"
+#include "tilepress/file_error.h"
 
 namespace tilepress {
 
@@ -27,17 +27,14 @@ void share_like_parent(const std::string& folder, unsigned extra_mode) {
   close(file);
 }
 
-std::string make_run_folder(const std::string& output, const std::string& name) {
+Result<std::string> make_run_folder(const std::string& output, const std::string& name) {
   std::error_code code;
   std::filesystem::create_directories(output, code);
-  if (code) {
-    errno = code.value();
-    return {};
-  }
+  if (code) return Error{ErrorKind::kFile, output + ": " + code.message()};
   const std::string stem = output + "/" + name;
   std::string path = stem;
   for (int suffix = 2; mkdir(path.c_str(), 0777) != 0; ++suffix) {
-    if (errno != EEXIST) return {};
+    if (errno != EEXIST) return file_error(output);
     path = stem + "-" + std::to_string(suffix);
   }
   if (geteuid() == 0) share_like_parent(path);

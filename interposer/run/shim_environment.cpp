@@ -107,8 +107,8 @@ std::optional<ShimRoad> parse_shim_road(std::string_view text) {
   return std::nullopt;
 }
 
-bool add_shim_environment(std::map<std::string, std::string>& environment, ShimRoad road,
-                          const std::string& preload_library, std::string& error) {
+Result<void> add_shim_environment(std::map<std::string, std::string>& environment, ShimRoad road,
+                                  const std::string& preload_library) {
   if (road != ShimRoad::kGlvnd) {
     const std::string present = variable("LD_PRELOAD");
     environment["LD_PRELOAD"] = present.empty() ? preload_library : preload_library + ":" + present;
@@ -116,7 +116,7 @@ bool add_shim_environment(std::map<std::string, std::string>& environment, ShimR
     // flag. The preloaded library gives the flag too, unless the program has default options of its own.
     const std::string asan = variable("ASAN_OPTIONS");
     environment["ASAN_OPTIONS"] = "verify_asan_link_order=0" + (asan.empty() ? "" : ":" + asan);
-    if (road == ShimRoad::kPreload) return true;
+    if (road == ShimRoad::kPreload) return {};
   }
   const fs::path folder = vendor_folder(preload_library);
   std::vector<std::string> files = egl_vendor_files();
@@ -127,12 +127,11 @@ bool add_shim_environment(std::map<std::string, std::string>& environment, ShimR
   const std::string glx = glx_vendor(glx_wish, glx_installed, files);
   // Where there are several vendors the preloaded library does, as far as it can.
   const bool certain = files.size() == 1 && glx_wish.empty() && (!glx.empty() || glx_installed.empty());
-  if (road == ShimRoad::kAuto && (folder.empty() || !has_driver || !certain)) return true;
-  if (folder.empty() || !has_driver) {
-    error = folder.empty() ? "--via glvnd: libEGL_tilepress.so.0: not found beside " + preload_library
-                           : "--via glvnd: no EGL vendor library is installed (libglvnd)";
-    return false;
-  }
+  if (road == ShimRoad::kAuto && (folder.empty() || !has_driver || !certain)) return {};
+  if (folder.empty())
+    return Error{ErrorKind::kFile, "--via glvnd: libEGL_tilepress.so.0: not found beside " + preload_library};
+  if (!has_driver)
+    return Error{ErrorKind::kSystem, "--via glvnd: no EGL vendor library is installed (libglvnd)"};
   std::string list;
   std::set<std::string> drivers;  // libglvnd takes each once
   for (const std::string& file : files) {
@@ -150,7 +149,7 @@ bool add_shim_environment(std::map<std::string, std::string>& environment, ShimR
   }
   const std::string libraries = variable("LD_LIBRARY_PATH");
   environment["LD_LIBRARY_PATH"] = libraries.empty() ? folder.string() : folder.string() + ":" + libraries;
-  return true;
+  return {};
 }
 
 }  // namespace tilepress

@@ -143,22 +143,14 @@ bool TraceReplay::check_folder() {
 
 /// Options that change the rows: two replays with equal fingerprints give equal statistics.
 std::string TraceReplay::fingerprint() const {
-  std::string text;
-  for (const SchemeSpec& scheme : run_options_.schemes) text += scheme.text + " ";
-  const ModelOptions& model = run_options_.model;
-  return text + "tile=" + std::to_string(model.tile_side) + " burst=" + std::to_string(model.burst_bits) +
-         " verify=" + (model.verify ? "1" : "0") + " frames=" + run_options_.frames.text() +
-         " every=" + std::to_string(run_options_.every) +
-         (run_options_.triggers != 0 ? " trigger=" + trigger_list(run_options_.triggers) : "") +
-         (run_options_.all_targets ? " targets=all" : "") +
-         " api=" + std::to_string(static_cast<int>(options_.retracer)) +
+  return rows_fingerprint(run_options_) + " api=" + std::to_string(static_cast<int>(options_.retracer)) +
          " display=" + std::to_string(static_cast<int>(options_.display));
 }
 
 bool TraceReplay::keep_finished_run() {
-  RunRecord run;
-  std::string error;
-  if (!read_run(run_path_, run, error)) return fail(error), false;
+  Result<RunRecord> read = read_run(run_path_);
+  if (!read) return fail(read.error().text), false;
+  RunRecord& run = *read;
   const std::string* trace = find_member(run.info, "trace_sha256");
   const std::string* options = find_member(run.info, "replay_options");
   if (trace == nullptr || options == nullptr || *trace != sha256_ || *options != fingerprint())
@@ -254,14 +246,13 @@ AttemptOutcome TraceReplay::attempt_road(const ReplayRoad& road, const std::stri
 void TraceReplay::find_run(Attempt& attempt) {
   for (const std::string& folder : run_folders_in(attempt.folder + "/runs")) {
     wait_for_writer(folder, true);
-    RunRecord run;
-    std::string error;
-    if (!read_run(folder, run, error)) {
-      options_.explain(error);
+    Result<RunRecord> run = read_run(folder);
+    if (!run) {
+      options_.explain(run.error().text);
       continue;
     }
-    if (!attempt.run_folder.empty() && run.frames.size() <= attempt.run.frames.size()) continue;
-    attempt.run = std::move(run);
+    if (!attempt.run_folder.empty() && run->frames.size() <= attempt.run.frames.size()) continue;
+    attempt.run = std::move(*run);
     attempt.run_folder = folder;
   }
 }
@@ -290,9 +281,8 @@ void TraceReplay::settle(Attempt& attempt) {
                  {"replay_options", fingerprint()}};
   if (!input_.category.empty()) end.further.emplace_back("category", input_.category);
   end.figures = {{"trace_frames", trace_.frames}, {"expected_frames", result_.frames_wanted}};
-  std::string error;
   result_.run = std::move(attempt.run);
-  if (!close_run(end, result_.run, error)) return fail(error);
+  if (const auto closed = close_run(end, result_.run); !closed) return fail(closed.error().text);
   std::error_code code;
   fs::rename(attempt.run_folder, run_path_, code);
   if (code) return fail(run_path_ + ": " + code.message());

@@ -16,8 +16,7 @@ std::string foreign(const std::string& name) {
 /// What the launcher sets; of it only what brings a preloaded library along.
 std::map<std::string, std::string> launcher_environment(const char* library = TILEPRESS_PRELOAD) {
   std::map<std::string, std::string> added;
-  std::string error;
-  EXPECT_TRUE(add_shim_environment(added, ShimRoad::kPreload, library, error)) << error;
+  EXPECT_TRUE(add_shim_environment(added, ShimRoad::kPreload, library));
   return added;
 }
 

@@ -94,10 +94,11 @@ TEST(ProcessEnd, WithoutATaskTheFramesThatAreLostAreCounted) {
                {{"LD_PRELOAD", TILEPRESS_PRELOAD ":/none/vgpreload_"}, {"TILEPRESS_QUEUE", "64"}});
     EXPECT_TRUE(on_a_thread(run)) << run.log;
     ASSERT_EQ(run.runs.size(), 1u) << way;
-    RunRecord record;
-    std::string error;
-    ASSERT_TRUE(read_run(run.runs[0].path, record, error)) << error;
-    ASSERT_TRUE(close_run(RunEnd{}, record, error)) << error;
+    auto read = read_run(run.runs[0].path);
+    ASSERT_TRUE(read) << read.error().text;
+    RunRecord& record = *read;
+    const auto closed = close_run(RunEnd{}, record);
+    ASSERT_TRUE(closed) << closed.error().text;
     EXPECT_EQ(record.counts.seen, 40u) << way;
     EXPECT_EQ(record.counts.captured, record.frames.size()) << way;
     EXPECT_EQ(record.counts.not_captured, 40u - record.frames.size()) << way;

@@ -25,8 +25,8 @@ class Vendors : public ::testing::Test {
   }
   std::map<std::string, std::string> environment() {
     std::map<std::string, std::string> added = {{"LD_PRELOAD", ""}};
-    std::string error;
-    EXPECT_TRUE(add_shim_environment(added, ShimRoad::kGlvnd, TILEPRESS_PRELOAD, error)) << error;
+    const auto result = add_shim_environment(added, ShimRoad::kGlvnd, TILEPRESS_PRELOAD);
+    EXPECT_TRUE(result) << result.error().text;
     return added;
   }
   void expect_captured(const std::map<std::string, std::string>& added) {
@@ -77,8 +77,7 @@ TEST_F(Vendors, TheOnlyGlxVendorIsPassedOnIfItIsOfTheSameDriver) {
   setenv("__EGL_VENDOR_LIBRARY_FILENAMES", vendor_file("10_other.json", "libEGL_other.so.0").c_str(), 1);
   EXPECT_EQ(environment().count("__GLX_VENDOR_LIBRARY_NAME"), 0u);
   std::map<std::string, std::string> added;
-  std::string error;
-  EXPECT_TRUE(add_shim_environment(added, ShimRoad::kAuto, TILEPRESS_PRELOAD, error));
+  EXPECT_TRUE(add_shim_environment(added, ShimRoad::kAuto, TILEPRESS_PRELOAD));
   EXPECT_EQ(added.size(), added.count("LD_PRELOAD") + added.count("ASAN_OPTIONS"));
 }
 

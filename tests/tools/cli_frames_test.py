@@ -239,7 +239,7 @@ class BadInput(CliCase):
         self.expect(USAGE, "raw.rgba: a raw frame needs --size WxH", "frames", "raw.rgba")
         self.expect(FAILED, "raw.rgba: 256 bytes, a raw frame of 8x4 has 128", "frames", "--size", "8x4", "raw.rgba")
         for size in ("0x8", "8", "8x", "x8", "8x8x8", "65536x1", "-8x8"):
-            self.expect(USAGE, f"--size {size}: not WxH with sides in 1..65535", "frames", f"--size={size}", "raw.rgba")
+            self.expect(USAGE, f"--size {size}: must be WxH with sides in 1..65535", "frames", f"--size={size}", "raw.rgba")
 
     def test_an_output_folder_that_cannot_be_made_is_named(self):
         self.write("file", b"")
@@ -273,9 +273,9 @@ class BadInput(CliCase):
         self.assert_absent("out")
 
     def test_values_out_of_range_are_named(self):
-        for words, line in ((("--tile", "12"), "--tile 12: not a multiple of 8"), (("--tile", "8192"), "--tile 8192: not in 8..4096"),
-                            (("--burst", "100"), "--burst 100: not a power of two"), (("--every", "0"), "--every 0: not in 1..4294967295"),
-                            (("--log-level", "loud"), "--log-level loud: not one of trace, debug, info, warn, error, off"),
+        for words, line in ((("--tile", "12"), "--tile 12: must be a multiple of 8 in 8..4096"), (("--tile", "8192"), "--tile 8192: must be a multiple of 8 in 8..4096"),
+                            (("--burst", "100"), "--burst 100: must be a power of two in 16..2048"), (("--every", "0"), "--every 0: must be a number in 1..4294967295"),
+                            (("--log-level", "loud"), "--log-level loud: must be trace, debug, info, warn, error or off"),
                             (("--progress", "loud"), "--progress loud: not one of auto, never, json")):
             self.expect(USAGE, line, "frames", *words, golden("odd", 0))
 

@@ -80,7 +80,7 @@ class BadInput(CliCase):
     def test_usage_errors_are_one_line_and_start_nothing(self):
         touch = ["--", "touch", "started"]
         self.expect(USAGE, "--frames 9-3: reversed range 9-3", "run", "--frames", "9-3", *touch)
-        self.expect(USAGE, "--on-full wait: neither block nor drop", "run", "--on-full", "wait", *touch)
+        self.expect(USAGE, "--on-full wait: must be block or drop", "run", "--on-full", "wait", *touch)
         self.assertEqual(self.run_command("run", "--seconds", "0", *touch).returncode, USAGE)
         self.assertEqual(self.run_command("run", "--rounds", "0", *touch).returncode, USAGE)
         self.expect(USAGE, "unknown option '--frob'", "run", "--frob", *touch)

@@ -29,8 +29,7 @@ class RunDirectory : public ::testing::Test {
     ASSERT_NE(mkdtemp(pattern.data()), nullptr);
     base_ = pattern;
     path_ = base_ + "/deep/run";
-    std::string error;
-    ASSERT_TRUE(set_run_option(options_, "scheme", "dcp vdcp:fvc=128,policy=2lfc", error)) << error;
+    ASSERT_TRUE(set_run_option(options_, "scheme", "dcp vdcp:fvc=128,policy=2lfc"));
     info_.command = {"prog", "--with", "a \"quoted\" word, \xC3\xA9"};
     info_.program = "prog";
     info_.pid = 42;
@@ -67,8 +66,8 @@ class RunDirectory : public ::testing::Test {
   }
   void write_frames(uint64_t count) {
     RunWriter writer;
-    ASSERT_TRUE(writer.create(path_, info_, options_)) << writer.error();
-    for (uint64_t f = 0; f < count; ++f) ASSERT_TRUE(writer.append(frame(f))) << writer.error();
+    ASSERT_TRUE(writer.create(path_, info_, options_));
+    for (uint64_t f = 0; f < count; ++f) ASSERT_TRUE(writer.append(frame(f)));
   }
   std::string text(const char* name) const {
     std::ifstream file(path_ + "/" + name);
@@ -80,10 +79,21 @@ class RunDirectory : public ::testing::Test {
     std::ofstream(path_ + "/" + name, std::ios::app) << tail;
   }
   RunRecord read() {
-    RunRecord record;
-    std::string error;
-    EXPECT_TRUE(read_run(path_, record, error)) << error;
+    const auto record = read_run(path_);
+    EXPECT_TRUE(record) << record.error().text;
+    return record ? *record : RunRecord{};
+  }
+  /// Reads the run and closes it.
+  RunRecord close(const RunEnd& end) {
+    RunRecord record = read();
+    const auto closed = close_run(end, record);
+    EXPECT_TRUE(closed) << closed.error().text;
     return record;
+  }
+  std::string reading_error() {
+    const auto record = read_run(path_);
+    EXPECT_FALSE(record);
+    return record ? "" : record.error().text;
   }
 
   std::string base_, path_;
@@ -94,7 +104,7 @@ class RunDirectory : public ::testing::Test {
 TEST_F(RunDirectory, ReadsBackWhatWasWritten) {
   {
     RunWriter writer;
-    ASSERT_TRUE(writer.create(path_, info_, options_)) << writer.error();
+    ASSERT_TRUE(writer.create(path_, info_, options_));
     for (uint64_t f = 0; f < 3; ++f) ASSERT_TRUE(writer.append(frame(f)));
     ASSERT_TRUE(writer.append(frame(0, 1)));
     RunCounts counts;
@@ -159,8 +169,10 @@ TEST_F(RunDirectory, IsNeverOverwritten) {
   write_frames(2);
   const std::string before = text("frames.csv");
   RunWriter writer;
-  EXPECT_FALSE(writer.create(path_, info_, options_));
-  EXPECT_EQ(writer.error(), path_ + ": already holds a run");
+  const auto created = writer.create(path_, info_, options_);
+  ASSERT_FALSE(created);
+  EXPECT_EQ(created.error().kind, ErrorKind::kExists);
+  EXPECT_EQ(created.error().text, path_ + ": already holds a run");
   EXPECT_FALSE(writer.is_open());
   EXPECT_EQ(text("frames.csv"), before);
 }
@@ -168,8 +180,9 @@ TEST_F(RunDirectory, IsNeverOverwritten) {
 TEST_F(RunDirectory, ReportsAFolderThatCannotBeMade) {
   std::ofstream(base_ + "/file") << "x";
   RunWriter writer;
-  EXPECT_FALSE(writer.create(base_ + "/file/run", info_, options_));
-  EXPECT_THAT(writer.error(), HasSubstr(base_ + "/file/run: Not a directory"));
+  const auto created = writer.create(base_ + "/file/run", info_, options_);
+  ASSERT_FALSE(created);
+  EXPECT_THAT(created.error().text, HasSubstr(base_ + "/file/run: Not a directory"));
 }
 
 TEST_F(RunDirectory, AFullDiskLeavesWholeRowsOnly) {
@@ -183,10 +196,10 @@ TEST_F(RunDirectory, AFullDiskLeavesWholeRowsOnly) {
   const rlimit tight{schemes_size + 20, old.rlim_max};
   signal(SIGXFSZ, SIG_IGN);
   setrlimit(RLIMIT_FSIZE, &tight);
-  const bool appended = writer.append(frame(1));
+  const auto appended = writer.append(frame(1));
   setrlimit(RLIMIT_FSIZE, &old);
-  EXPECT_FALSE(appended);
-  EXPECT_THAT(writer.error(), HasSubstr("schemes.csv: File too large"));
+  ASSERT_FALSE(appended);
+  EXPECT_THAT(appended.error().text, HasSubstr("schemes.csv: File too large"));
   EXPECT_EQ(text("schemes.csv").size(), schemes_size);
 }
 
@@ -206,12 +219,10 @@ TEST_F(RunDirectory, ClosingCutsTornRowsAndRowsOfAnIncompleteFrame) {
   add("schemes.csv", rows);         // frame 3 has its rows here ...
   add("frames.csv", "3,0,16,8,R");  // ... and a torn one there
 
-  RunRecord run;
-  std::string error;
   RunEnd end;
   end.state = "killed by signal 9";
   end.signal = 9;
-  ASSERT_TRUE(read_run(path_, run, error) && close_run(end, run, error)) << error;
+  const RunRecord run = close(end);
   EXPECT_EQ(text("frames.csv"), frames_before);
   EXPECT_EQ(text("schemes.csv"), schemes_before);
   EXPECT_EQ(run.frames.size(), 3u);
@@ -230,11 +241,9 @@ TEST_F(RunDirectory, ClosingKeepsTheFailureThatTheRunNoted) {
     ASSERT_TRUE(writer.create(path_, info_, options_));
     ASSERT_TRUE(writer.finish("failed", "disk full"));
   }
-  RunRecord run;
-  std::string error;
   RunEnd end;
   end.exit_status = 0;
-  ASSERT_TRUE(read_run(path_, run, error) && close_run(end, run, error)) << error;
+  close(end);
   EXPECT_EQ(read().state, "failed");
   EXPECT_EQ(read().reason, "disk full");
 }
@@ -242,9 +251,7 @@ TEST_F(RunDirectory, ClosingKeepsTheFailureThatTheRunNoted) {
 TEST_F(RunDirectory, ClosingMakesUpForALostJson) {
   write_frames(2);
   fs::remove(path_ + "/run.json");
-  RunRecord run;
-  std::string error;
-  ASSERT_TRUE(read_run(path_, run, error) && close_run(RunEnd{}, run, error)) << error;
+  close(RunEnd{});
   EXPECT_EQ(read().state, "finished");
   EXPECT_THAT(read().scheme_names, ElementsAre("dcp", "vdcp:fvc=128,policy=2lfc"));
 }
@@ -252,10 +259,7 @@ TEST_F(RunDirectory, ClosingMakesUpForALostJson) {
 TEST_F(RunDirectory, NamesTheFileAndTheRecordThatIsMalformed) {
   write_frames(2);
   add("frames.csv", "2,0,16,8,RGBX8,0,zero,1,0,0,0,0,0,0,0,0\n");
-  RunRecord run;
-  std::string error;
-  EXPECT_FALSE(read_run(path_, run, error));
-  EXPECT_EQ(error, path_ + "/frames.csv: record 4: time_ns is no number");
+  EXPECT_EQ(reading_error(), path_ + "/frames.csv: record 4: time_ns is no number");
 }
 
 TEST_F(RunDirectory, ASurplusFieldIsNotThatOfAMissingColumn) {
@@ -264,18 +268,12 @@ TEST_F(RunDirectory, ASurplusFieldIsNotThatOfAMissingColumn) {
   const std::string column = ",encode_ns";
   rows.erase(rows.find(column), column.size());
   std::ofstream(path_ + "/frames.csv") << rows;
-  RunRecord run;
-  std::string error;
-  EXPECT_FALSE(read_run(path_, run, error));
-  EXPECT_EQ(error, path_ + "/frames.csv: record 2: encode_ns is no number");
+  EXPECT_EQ(reading_error(), path_ + "/frames.csv: record 2: encode_ns is no number");
 }
 
 TEST_F(RunDirectory, AnEmptyFolderHoldsNoRun) {
   fs::create_directories(path_);
-  RunRecord run;
-  std::string error;
-  EXPECT_FALSE(read_run(path_, run, error));
-  EXPECT_EQ(error, path_ + ": holds no run");
+  EXPECT_EQ(reading_error(), path_ + ": holds no run");
 }
 
 TEST(CsvReader, KnowsQuotesAsRfc4180HasThem) {

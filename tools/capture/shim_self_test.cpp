@@ -31,10 +31,10 @@ std::string judge(const SessionFolder& session, const ChildEnd& child) {
     const auto lines = session.log_lines();
     return lines.empty() ? "no frame was seen" : lines.front();
   }
-  RunRecord record;
-  std::string error;
   wait_for_writer(runs.front().run_path, true);
-  if (!read_run(runs.front().run_path, record, error)) return error;
+  const auto read = read_run(runs.front().run_path);
+  if (!read) return read.error().text;
+  const RunRecord& record = *read;
   if (record.frames.size() != kFrames)
     return std::to_string(record.frames.size()) + " of " + std::to_string(kFrames) + " frames captured";
   for (const FrameStatistics& frame : record.frames) {
@@ -67,7 +67,10 @@ SelfTestResult test_shim(const std::string& library, ShimRoad road) {
   options.model.verify = true;
   auto environment = to_environment(options);
   environment["TILEPRESS_SESSION"] = session.path();
-  if (!add_shim_environment(environment, road, preloaded, result.detail)) return result;
+  if (const auto added = add_shim_environment(environment, road, preloaded); !added) {
+    result.detail = added.error().text;
+    return result;
+  }
   StartFailure failure{};
   const auto child = run_child({program}, environment, failure, 60);
   result.detail = child ? judge(session, *child) : failure.reason;

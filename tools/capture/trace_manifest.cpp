@@ -52,9 +52,9 @@ ReplayInput take_entry(const toml::table& entry, const fs::path& folder) {
   if (!input.category.empty() && input.category != "UI" && input.category != "2D" && input.category != "3D")
     throw fault("category", "category '" + input.category + "' is none of UI, 2D, 3D");
   if (const std::string frames = take_text(entry, "frames"); !frames.empty()) {
-    std::string error;
-    input.frames = FrameSet::parse(frames, error);
-    if (!input.frames) throw fault("frames", "frames: " + error);
+    const auto parsed = FrameSet::parse(frames);
+    if (!parsed) throw fault("frames", "frames: " + parsed.error().text);
+    input.frames = *parsed;
   }
   return input;
 }

@@ -71,7 +71,6 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
   ReplayOptions& replay = options.replay;
   int64_t timeout_s = replay.timeout.count();
   add_run_options(app, replay.run);
-  add_on_full_option(app, replay.run);
   add_capture_options(app, replay.run);
   app.add_option("TRACE", options.traces, "Traces");
   app.add_option("--manifest", options.manifest, "Traces with checksum, category and frames")

@@ -62,7 +62,6 @@ std::optional<int> parse_options(int argc, char** argv, LaunchOptions& options) 
   app.footer(kExamples);
   app.prefix_command();
   add_run_options(app, options.run);
-  add_on_full_option(app, options.run);
   add_capture_options(app, options.run);
   app.add_option("--via", options.via, "How the shim gets into the program (default: auto)")
       ->type_name("auto|preload|glvnd")
@@ -137,8 +136,10 @@ std::optional<std::map<std::string, std::string>> child_environment(const Launch
   environment["TILEPRESS_SESSION"] = session.path();
   environment["TILEPRESS_CAPTURE"] = capture ? "" : "off";
   environment["TILEPRESS_PRESENT_TIMES"] = options.measure_overhead ? session.path() : "";
-  if (!add_shim_environment(environment, *parse_shim_road(options.via), library, error))
+  if (const auto added = add_shim_environment(environment, *parse_shim_road(options.via), library); !added) {
+    error = added.error().text;
     return std::nullopt;
+  }
   return environment;
 }
 
@@ -175,15 +176,18 @@ struct Harvest {
 Harvest harvest(const SessionFolder& session, const ChildEnd& child, bool quiet) {
   Harvest out;
   for (const CapturedProcess& process : session.captured()) {
-    RunRecord record;
-    std::string error;
     const bool ended = is_child(process, child);
     const bool running = !wait_for_writer(process.run_path, ended) && !ended;
-    if (!read_run(process.run_path, record, error) ||
-        (!running && !close_run(end_of(process, child), record, error))) {
-      out.failures.push_back(error);
+    Result<RunRecord> read = read_run(process.run_path);
+    const Result<void> closed = !read     ? Result<void>(read.error())
+                                : running ? Result<void>()
+                                          : close_run(end_of(process, child), *read);
+    if (!closed) {
+      out.failures.push_back(closed.error().text);
       continue;
     }
+    const RunRecord& record = *read;
+    std::string error;
     if (!running && !convert_dumped_frames(process.run_path, error)) out.failures.push_back(error);
     out.captured += record.frames.size();
     out.seen += record.counts.seen;

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "common_options.h"
 #include "tilepress/color_cdf.h"
 
 namespace tilepress {
@@ -16,16 +17,7 @@ namespace tilepress {
 void add_cdf_options(CLI::App& app, std::string& path, FrameSet& frames) {
   app.add_option("--cdf", path, "Write every colour of the frames with its count and the cumulative share")
       ->type_name("FILE");
-  app.add_option_function<std::string>(
-         "--cdf-frames",
-         [&frames](const std::string& text) {
-           std::string error;
-           const auto parsed = FrameSet::parse(text, error);
-           if (!parsed) throw CLI::ValidationError("--cdf-frames " + text + ": " + error);
-           frames = *parsed;
-         },
-         "Of these frames only, as 0-99,200 (default: every frame)")
-      ->type_name("RANGES")
+  add_frames_option(app, frames, "cdf-frames", "Of these frames only, as 0-99,200 (default: every frame)")
       ->needs("--cdf");
 }
 

@@ -53,10 +53,10 @@ bool convert_dumped_frames(const std::string& run_path, std::string& error) {
   for (const auto& entry : fs::directory_iterator(folder, code))
     if (entry.path().extension() == ".rgba") raws.push_back(entry.path());
   if (raws.empty()) return true;
-  RunRecord run;
-  if (!read_run(run_path, run, error)) return false;
+  const auto run = read_run(run_path);
+  if (!run) return error = run.error().text, false;
   std::map<std::pair<unsigned long, unsigned long>, const FrameStatistics*> frames;
-  for (const FrameStatistics& frame : run.frames) frames[{frame.surface, frame.frame}] = &frame;
+  for (const FrameStatistics& frame : run->frames) frames[{frame.surface, frame.frame}] = &frame;
   std::sort(raws.begin(), raws.end());
   for (const fs::path& raw : raws) {
     unsigned long surface = 0, number = 0;

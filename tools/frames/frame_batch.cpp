@@ -124,9 +124,10 @@ class FrameBatch {
     engine.seek(ordinal);
     engine.note_block_bits(wanted ? worker.pictures.bits_for(number) : nullptr);
     engine.process(view, statistics);
-    if (!wanted || worker.pictures.write(statistics, view)) return true;
-    error = worker.pictures.error();
-    return false;
+    if (!wanted) return true;
+    const auto written = worker.pictures.write(statistics, view);
+    if (!written) error = written.error().text;
+    return static_cast<bool>(written);
   }
 
   const std::atomic<int>& stop_;

@@ -51,11 +51,11 @@ class RowSink {
     if (options.force)
       for (const char* name : {"/frames.csv", "/schemes.csv", "/run.json"})
         unlink((options.run.output + name).c_str());
-    if (!writer_.create(options.run.output, info, options.run)) {
-      error = writer_.error();
-      if (error.ends_with("already holds a run")) error += " (--force replaces it)";
-    }
-    return error.empty();
+    const auto created = writer_.create(options.run.output, info, options.run);
+    if (created) return true;
+    error = created.error().text;
+    if (created.error().kind == ErrorKind::kExists) error += " (--force replaces it)";
+    return false;
   }
   bool append(const FrameStatistics& frame, std::string& error) {
     if (!writer_.is_open()) {
@@ -63,16 +63,17 @@ class RowSink {
       append_schemes_rows(frame, names_, text_);
       return print(text_, error);
     }
-    if (!writer_.append(frame)) error = writer_.error();
-    return error.empty();
+    const auto appended = writer_.append(frame);
+    if (!appended) error = appended.error().text;
+    return static_cast<bool>(appended);
   }
   bool finish(const RunCounts& counts, const std::string& state, const std::string& reason,
               std::string& error) {
     if (!writer_.is_open()) return true;
     writer_.set_counts(counts);
-    if (writer_.finish(state, reason)) return true;
-    if (error.empty()) error = writer_.error();
-    return false;
+    const auto finished = writer_.finish(state, reason);
+    if (!finished && error.empty()) error = finished.error().text;
+    return static_cast<bool>(finished);
   }
 
  private:
@@ -134,8 +135,8 @@ bool process_stream(ImageFrames& images, const FramesOptions& options, RowSink& 
     const SurfaceView view = view_of(images, frame);
     engine.note_block_bits(pictures.bits_for(number));
     engine.process(view, statistics);
-    if (!pictures.write(statistics, view)) {
-      error = pictures.error();
+    if (const auto written = pictures.write(statistics, view); !written) {
+      error = written.error().text;
       return false;
     }
     if (options.wants_cdf(number) && !cdf.append(statistics, view, error)) return false;

@@ -12,6 +12,7 @@
 #include "streams/output_file.h"
 #include "tilepress/run_options.h"
 #include "tilepress/scheme.h"
+#include "tilepress/surface_engine.h"
 #include "verb.h"
 
 namespace tilepress {
@@ -171,15 +172,13 @@ int verb_pack(int argc, char** argv) {
   app.footer(kExamples);
   PackOptions options;
   options.run.output = "-";
-  set_run_option(options.run, "scheme", "vdcp", options.output);
+  options.run.schemes = {*parse_scheme("vdcp")};
   app.add_option("IMAGE", options.images, "Images or movies of 8 bits a channel, or raw files")
       ->type_name("...")
       ->required();
   app.add_option("-o,--output", options.output, "File to write")->type_name("FILE")->required();
   add_model_options(app, options.run, "One scheme as name:key=value,... (default: vdcp)");
-  app.add_flag_callback(
-      "--verify", [&] { options.run.model.verify = true; },
-      "Decode every block again and compare; a mismatch is exit 1");
+  add_run_option(app, options.run, "verify", "Decode every block again and compare; a mismatch is exit 1");
   add_size_option(app, "size", options.size, "Size of raw frames");
   app.add_option_function<std::string>(
          "--format",

@@ -12,6 +12,7 @@
 #include "frames/read_options.h"
 #include "streams/output_file.h"
 #include "tilepress/run_options.h"
+#include "tilepress/statistics.h"
 #include "tilepress/surface_reader.h"
 #include "verb.h"
 

@@ -95,8 +95,7 @@ class CaptureList {
   void add(const std::string& path) {
     if (watches_.count(path) > 0) return;
     auto watch = std::make_unique<Watch>();
-    std::string error;
-    if (!watch->reader.open(path, error) || !watch->reader.read(watch->capture.now)) return;
+    if (!watch->reader.open(path) || !watch->reader.read(watch->capture.now)) return;
     watch->capture.path = path;
     watch->read_at = Clock::now();
     watches_[path] = std::move(watch);

@@ -101,10 +101,9 @@ int verb_compare(int argc, char** argv) {
   std::vector<RunComparison> runs;
   bool compared_any = false;
   for (const auto& [a, b] : pairs) {
-    RunRecord record_a, record_b;
-    if (!read_run(a.path, record_a, error) || !read_run(b.path, record_b, error))
-      return fail(kExitFailed, error);
-    RunComparison run = compare_runs(record_a, record_b, options.frames);
+    const auto record_a = read_run(a.path), record_b = read_run(b.path);
+    if (!record_a || !record_b) return fail(kExitFailed, (record_a ? record_b : record_a).error().text);
+    RunComparison run = compare_runs(*record_a, *record_b, options.frames);
     run.name = a.name;
     // The other formats have the remarks in their text.
     if (format == ComparisonFormat::kCsv)

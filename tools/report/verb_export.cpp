@@ -20,9 +20,9 @@ struct ExportOptions {
 
 bool export_run(const BatchEntry& entry, const ExportOptions& options, OutputFile& out, std::string& error) {
   if (options.format == "jsonl") return write_row_lines(entry.path, entry.name, out, error);
-  RunRecord run;
-  if (!read_run(entry.path, run, error)) return false;
-  out.write(gem5_stats(run, gem5_name(entry.name), options.per_frame));
+  const auto run = read_run(entry.path);
+  if (!run) return error = run.error().text, false;
+  out.write(gem5_stats(*run, gem5_name(entry.name), options.per_frame));
   return true;
 }
 

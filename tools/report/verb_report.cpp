@@ -48,11 +48,13 @@ bool summarise_all(const std::vector<BatchEntry>& entries, std::vector<RunSummar
   const size_t pictures_per_run = std::clamp<size_t>(kPictureBudget / entries.size(), 1, kPicturesPerRun);
   const auto work = [&] {
     for (size_t i = next++; i < entries.size(); i = next++) {
-      RunRecord run;
-      if (read_run(entries[i].path, run, errors[i])) {
-        out[i] = summarise_run(run, entries[i].name, kPointBudget / entries.size());
-        out[i].pictures = load_pictures(run, pictures_per_run);
+      const auto run = read_run(entries[i].path);
+      if (!run) {
+        errors[i] = run.error().text;
+        continue;
       }
+      out[i] = summarise_run(*run, entries[i].name, kPointBudget / entries.size());
+      out[i].pictures = load_pictures(*run, pictures_per_run);
     }
   };
   std::vector<std::thread> threads(

@@ -116,7 +116,7 @@ void CaptureWorker::work_until_closed() {
 
 void CaptureWorker::take(CapturedFrame* frame) {
   if (!writer_.is_open() && alive() && counts_.presented.seen() + counts_.targets.seen() > 0) {
-    if (!create_directory()) give_up(writer_.error().empty() ? files_error_ : writer_.error());
+    if (const auto created = create_directory(); !created) give_up(created.error().text);
     opened_ = true;
     opened_changed_.notify_all();
   }
@@ -141,7 +141,7 @@ void CaptureWorker::end_run() {
     counts_.targets.settle();
     publish_counts();
   }
-  writer_.finish(gone ? "ended" : "finished", gone ? "the program ended without exit()" : "");
+  (void)writer_.finish(gone ? "ended" : "finished", gone ? "the program ended without exit()" : "");
   counts_.presented.show_in(nullptr);
   counts_.targets.show_in(nullptr);
   live_.close();
@@ -168,19 +168,14 @@ void CaptureWorker::count_after_end() {
   }
 }
 
-bool CaptureWorker::create_directory() {
-  const std::string path = make_run_folder(options_.output, info_.program + "-" + std::to_string(info_.pid));
-  if (path.empty()) {
-    files_error_ = options_.output + ": " + std::strerror(errno);
-    return false;
-  }
+Result<void> CaptureWorker::create_directory() {
+  const auto folder = make_run_folder(options_.output, info_.program + "-" + std::to_string(info_.pid));
+  if (!folder) return folder.error();
+  const std::string& path = *folder;
   write_session_mark(path, info_.pid);
-  if (!writer_.create(path, info_, options_)) return false;
-  if (!presents_.create(path + "/presents.csv", kPresentColumns) ||
-      !surface_rows_.create(path + "/surfaces.csv", kSurfaceColumns)) {
-    files_error_ = path + ": " + std::strerror(errno);
-    return false;
-  }
+  if (auto made = writer_.create(path, info_, options_); !made) return made;
+  if (auto made = presents_.create(path + "/presents.csv", kPresentColumns); !made) return made;
+  if (auto made = surface_rows_.create(path + "/surfaces.csv", kSurfaceColumns); !made) return made;
   pictures_.open(path, options_);
   live_.open(path, info_, options_);
   if (LivePage* page = live_.page()) {
@@ -188,7 +183,7 @@ bool CaptureWorker::create_directory() {
     counts_.targets.show_in(&page->targets);
   }
   log_.write(LogLevel::kInfo, path + ": run started");
-  return true;
+  return {};
 }
 
 CaptureWorker::Surface* CaptureWorker::known_surface(const CapturedFrame& frame) {
@@ -201,7 +196,7 @@ void CaptureWorker::process(const CapturedFrame& frame) {
   // Memory is had for the first frame of a surface: always on one thread, or it would come from two heaps.
   const bool may_yield = options_.on_full == OnFull::kBlock && surface != nullptr;
   if (surface == nullptr) {
-    if (!append_surface(frame)) return give_up(writer_.path() + "/surfaces.csv: cannot be written");
+    if (const auto written = append_surface(frame); !written) return give_up(written.error().text);
     surface = &surfaces_
                    .insert_or_assign(frame.window,
                                      Surface{frame.surface, SurfaceEngine(options_.schemes, options_.model)})
@@ -217,10 +212,11 @@ void CaptureWorker::process(const CapturedFrame& frame) {
   surface->engine.note_block_bits(bits);
   surface->engine.begin(frame.view, statistics_);
   compress(surface->engine, may_yield);
-  if (!pictures_.write(statistics_, frame.view)) return give_up(pictures_.error());
+  if (const auto written = pictures_.write(statistics_, frame.view); !written)
+    return give_up(written.error().text);
   dump_frame(frame, log_);
-  if (!append_present(frame)) return give_up(writer_.path() + "/presents.csv: cannot be written");
-  if (!writer_.append(statistics_)) return give_up(writer_.error());
+  if (const auto written = append_present(frame); !written) return give_up(written.error().text);
+  if (const auto written = writer_.append(statistics_); !written) return give_up(written.error().text);
   counts_.of(frame.role).raise(&LiveCounts::captured);
   // Without the frame in hand: it is pending until the queue has it back.
   if (frame.role == SurfaceRole::kPresented)
@@ -252,7 +248,7 @@ void CaptureWorker::compress(SurfaceEngine& engine, bool may_yield) {
   }
 }
 
-bool CaptureWorker::append_present(const CapturedFrame& frame) {
+Result<void> CaptureWorker::append_present(const CapturedFrame& frame) {
   std::string row;
   for (const uint64_t value :
        {frame.frame, uint64_t{frame.surface}, frame.readback_ns, frame.read_ns, frame.wait_ns})
@@ -263,7 +259,7 @@ bool CaptureWorker::append_present(const CapturedFrame& frame) {
   return presents_.append(row.append(",").append(frame.cause).append(",").append(name_of(frame.way)) + "\n");
 }
 
-bool CaptureWorker::append_surface(const CapturedFrame& frame) {
+Result<void> CaptureWorker::append_surface(const CapturedFrame& frame) {
   const bool target = frame.role == SurfaceRole::kTarget;
   return surface_rows_.append(
       std::to_string(frame.surface) + (target ? ",target," : ",presented,") + frame.origin + "," +
@@ -283,7 +279,7 @@ void CaptureWorker::give_up(const std::string& reason) {
   log_.write(LogLevel::kError, reason.empty() ? "run folder: cannot be written" : reason);
   if (writer_.is_open()) {
     publish_counts();
-    writer_.finish("failed", reason);
+    (void)writer_.finish("failed", reason);
     live_.close();
     live_picture_.close();
   }

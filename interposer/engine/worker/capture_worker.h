@@ -76,14 +76,14 @@ class CaptureWorker {
   void take(CapturedFrame* frame);
   void count_after_end();
   void end_run();
-  bool create_directory();
+  Result<void> create_directory();
   /// Null before its first frame.
   Surface* known_surface(const CapturedFrame& frame);
   void process(const CapturedFrame& frame);
   /// The rest of a frame that has begun.
   void compress(SurfaceEngine& engine, bool may_yield);
-  bool append_present(const CapturedFrame& frame);
-  bool append_surface(const CapturedFrame& frame);
+  Result<void> append_present(const CapturedFrame& frame);
+  Result<void> append_surface(const CapturedFrame& frame);
   void publish_counts();
   void give_up(const std::string& reason);
 
@@ -95,7 +95,6 @@ class CaptureWorker {
   RunWriter writer_;
   AppendFile presents_;      ///< presents.csv
   AppendFile surface_rows_;  ///< surfaces.csv
-  std::string files_error_;  ///< why one of the two could not be made
   FramePictures pictures_;
   LiveWriter live_;
   LivePictureWriter live_picture_;

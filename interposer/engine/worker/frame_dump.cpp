@@ -16,7 +16,8 @@ void dump_frame(const CapturedFrame& frame, const ShimLog& log) {
   mkdir(folder, 0777);
   const std::string path =
       std::string(folder) + "/" + std::to_string(frame.surface) + "-" + std::to_string(frame.frame) + ".rgba";
-  if (!write_raw_frame(path, frame.view)) log.write(LogLevel::kError, path + ": cannot be written");
+  if (const auto written = write_raw_frame(path, frame.view); !written)
+    log.write(LogLevel::kError, written.error().text);
 }
 
 }  // namespace tilepress

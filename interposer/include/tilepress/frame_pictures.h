@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tilepress/result.h"
 #include "tilepress/run_options.h"
 #include "tilepress/statistics.h"
 #include "tilepress/surface_engine.h"
@@ -24,21 +25,19 @@ class FramePictures {
   void open(const std::string& run_path, const RunOptions& options);
   /// Where the engine is to note the blocks' bits of this frame, or null if they are not wanted.
   BlockBits* bits_for(uint64_t frame);
-  /// Writes what is wanted of `frame`, whose pixels `view` shows. False and one line in error() on failure.
-  bool write(const FrameStatistics& frame, const SurfaceView& view);
-  const std::string& error() const { return error_; }
+  /// Writes the wanted pictures of `frame`, whose pixels `view` shows.
+  Result<void> write(const FrameStatistics& frame, const SurfaceView& view);
 
  private:
-  bool write_heat_maps(const FrameStatistics& frame);
-  std::string run_path_, error_;
+  Result<void> write_heat_maps(const FrameStatistics& frame);
+  std::string run_path_;
   std::vector<std::string> scheme_names_;
   uint64_t heatmaps_every_ = 0, dump_every_ = 0;
   BlockBits bits_;
 };
 
 /// Writes a frame's pixels top row first, rows tight, as their canonical bytes (R,G,B,A for 8-bit channels,
-/// with A = 255 where the format has none; the native 2 or 4 bytes, little-endian, otherwise). False and
-/// errno on failure.
-bool write_raw_frame(const std::string& path, const SurfaceView& view);
+/// with A = 255 where the format has none; the native 2 or 4 bytes, little-endian, otherwise).
+Result<void> write_raw_frame(const std::string& path, const SurfaceView& view);
 
 }  // namespace tilepress

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tilepress/result.h"
 #include "tilepress/run_directory.h"
 #include "tilepress/statistics.h"
 
@@ -95,8 +96,8 @@ class LiveReader {
   LiveReader(const LiveReader&) = delete;
   LiveReader& operator=(const LiveReader&) = delete;
   ~LiveReader();
-  /// False and one line in `error` if the run has no page of this version.
-  bool open(const std::string& run_path, std::string& error, bool asks_for_pictures = false);
+  /// Fails if the run has no page of this version.
+  Result<void> open(const std::string& run_path, bool asks_for_pictures = false);
   /// A consistent copy. False if none could be had (the writer died while writing).
   bool read(LiveState& out) const;
   /// Counts that the program itself has raised. Zeros without a page.

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tilepress/result.h"
 #include "tilepress/run_options.h"
 #include "tilepress/statistics.h"
 
@@ -45,7 +46,7 @@ struct RunCounts {
 /// Writes one run. One write() per file and frame, O_APPEND: after a SIGKILL every finished frame's rows are
 /// there. schemes.csv goes before frames.csv, so a row in frames.csv means that the frame is complete.
 /// run.json is replaced atomically: at creation ("state": "running"), at most twice a second, and by
-/// finish(). Not thread-safe. Nothing throws; errors are reported as one line each by error().
+/// finish(). Not thread-safe.
 class RunWriter {
  public:
   RunWriter();
@@ -53,27 +54,26 @@ class RunWriter {
   RunWriter& operator=(const RunWriter&) = delete;
   ~RunWriter();  ///< closes the files; does not finish()
 
-  /// Creates `path` (parents too) and the three files. Fails if `path` already holds a run.
-  bool create(const std::string& path, const RunInfo& info, const RunOptions& options);
-  bool append(const FrameStatistics& frame);
+  /// Creates `path` (parents too) and the three files. kExists: `path` already holds a run.
+  Result<void> create(const std::string& path, const RunInfo& info, const RunOptions& options);
+  Result<void> append(const FrameStatistics& frame);
   /// May be called at any time; run.json follows within half a second or at finish().
   void set_counts(const RunCounts& counts, const RunCounts& targets = {});
   void set_info(const RunInfo& info);
   /// The captured program is no more; only this writer still works on the run (run_lock.h).
   void program_has_ended();
   /// state: "finished", or "failed" with the reason.
-  bool finish(const std::string& state, const std::string& reason);
+  Result<void> finish(const std::string& state, const std::string& reason);
 
   bool is_open() const;
   const std::string& path() const { return path_; }
-  const std::string& error() const { return error_; }
   /// Sums over the non-warmup frames that are presented, in the order of the schemes.
   const std::vector<SchemeStatistics>& totals() const { return totals_; }
   uint64_t measured_frames() const { return measured_frames_; }
 
  private:
-  bool write_json(const std::string& state, const std::string& reason);
-  std::string path_, error_, started_;
+  Result<void> write_json(const std::string& state, const std::string& reason);
+  std::string path_, started_;
   RunInfo info_;
   RunOptions options_;
   RunCounts counts_, target_counts_;

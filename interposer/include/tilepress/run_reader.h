@@ -47,10 +47,9 @@ struct RunRecord {
 bool holds_run(const std::string& path);
 
 /// Reads the run in folder `path`. A row that is still being written, and rows of a frame that is not
-/// complete, are left out. Columns are found by name; unknown columns are passed over. A missing run.json is
-/// no error. False and one line in `error` ("path/file: reason") if the folder holds no run or a file is
-/// malformed.
-bool read_run(const std::string& path, RunRecord& out, std::string& error);
+/// complete, are left out. Columns are found by name; unknown columns are skipped. run.json may be missing.
+/// Fails if the folder holds no run or a file is malformed: "path/file: reason".
+Result<RunRecord> read_run(const std::string& path);
 
 /// How the program of a run ended.
 struct RunEnd {
@@ -68,7 +67,7 @@ struct RunEnd {
 /// incomplete frame, and replaces run.json by one with totals over what is there. What the run itself has
 /// noted ("finished", "failed") stays, except that a signal overrules "finished", and `end.overrules` both.
 /// Frames that the program has presented and that left no row are counted as not captured.
-/// `record`, as read_run() gave it, becomes the run as it then is. False and one line in `error` on failure.
-bool close_run(const RunEnd& end, RunRecord& record, std::string& error);
+/// `record`, as read_run() gave it, becomes the run as it then is.
+Result<void> close_run(const RunEnd& end, RunRecord& record);
 
 }  // namespace tilepress

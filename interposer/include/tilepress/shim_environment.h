@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "tilepress/result.h"
+
 namespace tilepress {
 
 /// How the shim gets into a program (--via).
@@ -20,8 +22,8 @@ std::optional<ShimRoad> parse_shim_road(std::string_view text);
 /// Adds to `environment` what makes the shim meet the presenting calls of a program started with it, on top
 /// of this process's own variables. `preload_library` is the path of libtilepress-preload.so as it may stand
 /// in LD_PRELOAD (no colon, no space); the vendor libraries are looked for beside it and in the folder
-/// tilepress/ beside it. False and one line in `error` where the road asked for is not to be had.
-bool add_shim_environment(std::map<std::string, std::string>& environment, ShimRoad road,
-                          const std::string& preload_library, std::string& error);
+/// tilepress/ beside it. Fails where this machine lacks what `road` requires.
+Result<void> add_shim_environment(std::map<std::string, std::string>& environment, ShimRoad road,
+                          const std::string& preload_library);
 
 }  // namespace tilepress

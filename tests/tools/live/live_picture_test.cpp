@@ -21,9 +21,9 @@ TEST_F(LivePictureTest, NobodyGetsPicturesWhoDoesNotAsk) {
   LiveWriter writer;
   writer.open(folder_, info_, options_);
   LiveReader top, view;
-  ASSERT_TRUE(top.open(folder_, error_)) << error_;
+  ASSERT_TRUE(top.open(folder_));
   EXPECT_FALSE(writer.picture_wanted());
-  ASSERT_TRUE(view.open(folder_, error_, true)) << error_;
+  ASSERT_TRUE(view.open(folder_, true));
   EXPECT_FALSE(writer.picture_wanted());
   view.ask_for_pictures();
   EXPECT_TRUE(writer.picture_wanted());
@@ -33,7 +33,7 @@ TEST_F(LivePictureTest, AtMostOnePictureIn100Milliseconds) {
   LiveWriter writer;
   writer.open(folder_, info_, options_);
   LiveReader view;
-  ASSERT_TRUE(view.open(folder_, error_, true)) << error_;
+  ASSERT_TRUE(view.open(folder_, true));
   view.ask_for_pictures();
   const auto begin = std::chrono::steady_clock::now();
   uint64_t given = 0;
@@ -97,7 +97,7 @@ TEST_F(LivePictureTest, WhatCannotBeMadeIsToldToTheWatcher) {
   LiveWriter writer;
   writer.open(folder_, info_, options_);
   LiveReader view;
-  ASSERT_TRUE(view.open(folder_, error_, true)) << error_;
+  ASSERT_TRUE(view.open(folder_, true));
   EXPECT_EQ(view.picture_error(), 0);
   writer.set_picture_error(ENOSPC);
   EXPECT_EQ(view.picture_error(), ENOSPC);

@@ -46,8 +46,7 @@ TEST_F(LiveRace, SnapshotsOfThePageAreNeverTorn) {
   std::atomic<uint64_t> seen{0};
   const auto watch = [&] {
     LiveReader reader;
-    std::string error;
-    ASSERT_TRUE(reader.open(folder_, error, true)) << error;
+    ASSERT_TRUE(reader.open(folder_, true));
     uint64_t last = 0;
     while (!done) {
       reader.ask_for_pictures();

@@ -29,7 +29,7 @@ class LiveFolderTest : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
   bool has(const char* file) const { return std::filesystem::exists(folder_ + "/" + file); }
 
-  std::string folder_, error_;
+  std::string folder_;
   RunInfo info_;
   RunOptions options_;
 };

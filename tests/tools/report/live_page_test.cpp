@@ -51,7 +51,7 @@ class LivePageTest : public testing::Test {
     counts.seen = counts.captured = n;
     writer.update(frame, frame.schemes, counts, 1, 3);
   }
-  std::string folder_, error_;
+  std::string folder_;
   RunInfo info_;
   RunOptions options_;
 };
@@ -61,7 +61,7 @@ TEST_F(LivePageTest, AReaderSeesTheLastUpdate) {
   writer.open(folder_, info_, options_);
   update(writer, 10);
   LiveReader reader;
-  ASSERT_TRUE(reader.open(folder_, error_)) << error_;
+  ASSERT_TRUE(reader.open(folder_));
   LiveState state{};
   ASSERT_TRUE(reader.read(state));
   EXPECT_STREQ(state.program, "gears");
@@ -84,7 +84,7 @@ TEST_F(LivePageTest, ThePageGoesWithTheRunAndAReaderOutlivesIt) {
   writer.open(folder_, info_, options_);
   update(writer, 3);
   LiveReader reader;
-  ASSERT_TRUE(reader.open(folder_, error_)) << error_;
+  ASSERT_TRUE(reader.open(folder_));
   writer.close();
   EXPECT_FALSE(page_exists());
   update(writer, 4);  // after the end: nothing happens
@@ -98,7 +98,7 @@ TEST_F(LivePageTest, SnapshotsAreNeverTorn) {
   writer.open(folder_, info_, options_);
   update(writer, 1);
   LiveReader reader;
-  ASSERT_TRUE(reader.open(folder_, error_)) << error_;
+  ASSERT_TRUE(reader.open(folder_));
   std::atomic<bool> done{false};
   std::thread thread([&] {
     for (uint64_t n = 2; n < 20000; ++n) update(writer, n);
@@ -119,13 +119,16 @@ TEST_F(LivePageTest, SnapshotsAreNeverTorn) {
 
 TEST_F(LivePageTest, OtherFilesAreRefused) {
   LiveReader reader;
-  EXPECT_FALSE(reader.open(folder_, error_));
-  EXPECT_NE(error_.find("/live: No such file"), std::string::npos) << error_;
+  const auto missing = reader.open(folder_);
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().text.find("/live: No such file"), std::string::npos) << missing.error().text;
   std::ofstream(folder_ + "/live") << std::string(sizeof(LivePage), 'x');
-  EXPECT_FALSE(reader.open(folder_, error_));
-  EXPECT_NE(error_.find("not a live page of this version"), std::string::npos) << error_;
+  const auto foreign = reader.open(folder_);
+  ASSERT_FALSE(foreign);
+  EXPECT_NE(foreign.error().text.find("not a live page of this version"), std::string::npos)
+      << foreign.error().text;
   std::ofstream(folder_ + "/live") << "TPLIVE";
-  EXPECT_FALSE(reader.open(folder_, error_));
+  EXPECT_FALSE(reader.open(folder_));
 }
 
 TEST_F(LivePageTest, APageThatCannotBeMadeIsNoError) {

@@ -16,7 +16,8 @@ constexpr std::chrono::milliseconds kAskPeriod{500}, kLookPeriod{500}, kNumbersP
 bool CaptureWatch::attach(const std::string& path) {
   auto reader = std::make_unique<LiveReader>();
   WatchedCapture capture;
-  if (!reader->open(path, error_, true) || !reader->read(capture.now)) return false;
+  if (const auto opened = reader->open(path, true); !opened) return error_ = opened.error().text, false;
+  if (!reader->read(capture.now)) return false;
   error_.clear();
   capture.path = path;
   reader_ = std::move(reader);

@@ -1,0 +1,322 @@
+// Run option table: how options are read and printed, and a row for each.
+#include "tilepress/run_option_table.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <optional>
+#include <ranges>
+#include <utility>
+
+#include "tilepress/block.h"
+
+namespace tilepress {
+namespace {
+
+Result<void> refuse(const RunOption& option, std::string_view value) {
+  return Error{ErrorKind::kBadValue,
+               (value.empty() ? "''" : std::string(value)) + ": must be " + std::string(option.range)};
+}
+
+// Below, `member` maps options, const or not, to a reference to one of their members.
+
+std::optional<uint64_t> parse_count(std::string_view text, uint64_t least, uint64_t most) {
+  uint64_t value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool fits = code == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
+  return fits ? std::optional(value) : std::nullopt;
+}
+
+constexpr bool any(uint64_t) {
+  return true;
+}
+constexpr bool whole_blocks(uint64_t side) {
+  return side % kBlockSide == 0;
+}
+constexpr bool power_of_two(uint64_t bits) {
+  return std::has_single_bit(bits);
+}
+
+template <auto member, uint64_t least, uint64_t most, bool (*fits)(uint64_t) = any>
+constexpr OptionText kCount = {
+    [](const RunOption& option, RunOptions& options, std::string_view value) -> Result<void> {
+      const auto count = parse_count(value, least, most);
+      if (!count || !fits(*count)) return refuse(option, value);
+      auto& target = member(options);
+      target = static_cast<std::remove_reference_t<decltype(target)>>(*count);
+      return {};
+    },
+    [](const RunOptions& options) { return std::to_string(member(options)); }};
+
+constexpr uint64_t kMaxPeriod = 0xFFFFFFFFu;
+
+/// "every:N", or nothing for never.
+template <auto member>
+constexpr OptionText kPeriod = {
+    [](const RunOption& option, RunOptions& options, std::string_view value) -> Result<void> {
+      constexpr std::string_view kStart = "every:";
+      auto every = value.empty() ? std::optional<uint64_t>(0) : std::nullopt;
+      if (value.starts_with(kStart)) every = parse_count(value.substr(kStart.size()), 1, kMaxPeriod);
+      if (!every) return refuse(option, value);
+      member(options) = *every;
+      return {};
+    },
+    [](const RunOptions& options) {
+      return member(options) == 0 ? "" : "every:" + std::to_string(member(options));
+    }};
+
+template <class T>
+struct Choice {
+  std::string_view name;
+  T value;
+};
+constexpr Choice<bool> kSwitch[] = {{"1", true},  {"true", true},   {"on", true},   {"yes", true},
+                                    {"0", false}, {"false", false}, {"off", false}, {"no", false}};
+constexpr Choice<bool> kTargets[] = {{"presented", false}, {"all", true}};
+constexpr Choice<OnFull> kOnFull[] = {{"block", OnFull::kBlock}, {"drop", OnFull::kDrop}};
+constexpr Choice<Readback> kReadbacks[] = {{"auto", Readback::kAuto},
+                                           {"sync", Readback::kSync},
+                                           {"async", Readback::kAsync},
+                                           {"in-context", Readback::kInContext}};
+constexpr Choice<std::string_view> kLogLevels[] = {{"trace", "trace"}, {"debug", "debug"}, {"info", "info"},
+                                                   {"warn", "warn"},   {"error", "error"}, {"off", "off"}};
+constexpr Choice<Trigger> kTriggers[] = {
+    {"finish", kTriggerFinish}, {"flush", kTriggerFlush}, {"readpixels", kTriggerReadPixels}};
+
+/// Of several names for a value the first is printed.
+template <const auto& choices, auto member>
+constexpr OptionText kChoice = {
+    [](const RunOption& option, RunOptions& options, std::string_view value) -> Result<void> {
+      for (const auto& choice : choices) {
+        if (value != choice.name) continue;
+        member(options) = choice.value;
+        return {};
+      }
+      return refuse(option, value);
+    },
+    [](const RunOptions& options) {
+      for (const auto& choice : choices)
+        if (choice.value == member(options)) return std::string(choice.name);
+      return std::string();
+    }};
+
+Result<void> set_triggers(const RunOption& option, RunOptions& options, std::string_view value) {
+  uint32_t triggers = 0;
+  for (const auto& part : std::views::split(value, ',')) {
+    const std::string_view word(part.begin(), part.end());
+    const auto* found = std::ranges::find(kTriggers, word, &Choice<Trigger>::name);
+    if (found == std::end(kTriggers)) return refuse(option, value);
+    triggers |= found->value;
+  }
+  options.triggers = triggers;
+  return {};
+}
+
+std::string print_triggers(const RunOptions& options) {
+  std::string list;
+  for (const auto& [name, trigger] : kTriggers)
+    if ((options.triggers & trigger) != 0) list.append(list.empty() ? "" : ",").append(name);
+  return list;
+}
+
+Result<void> set_schemes(const RunOption& option, RunOptions& options, std::string_view value) {
+  std::vector<SchemeSpec> schemes;
+  for (const auto& word : std::views::split(value, ' ')) {
+    const std::string_view part(word.begin(), word.end());
+    if (part.empty()) continue;
+    auto spec = parse_scheme(part);
+    if (!spec) {
+      Error error = spec.error();
+      // The parser names the scheme, and so does this error.
+      const std::string subject = "scheme '" + std::string(part) + "': ";
+      if (error.text.starts_with(subject)) error.text.erase(0, subject.size());
+      return about(part, error);
+    }
+    const auto same = [&](const SchemeSpec& known) { return known.text == spec->text; };
+    if (std::ranges::none_of(schemes, same)) schemes.push_back(std::move(*spec));
+  }
+  if (schemes.empty()) return refuse(option, value);
+  options.schemes = std::move(schemes);
+  return {};
+}
+
+std::string print_schemes(const RunOptions& options) {
+  std::string list;
+  for (const SchemeSpec& spec : options.schemes) list += (list.empty() ? "" : " ") + spec.text;
+  return list;
+}
+
+Result<void> set_frames(const RunOption&, RunOptions& options, std::string_view value) {
+  auto set = FrameSet::parse(value);
+  if (!set) return about(value, set.error());
+  options.frames = std::move(*set);
+  return {};
+}
+
+Result<void> set_output(const RunOption& option, RunOptions& options, std::string_view value) {
+  if (value.empty()) return refuse(option, value);
+  options.output = value;
+  return {};
+}
+
+#define TP_MEMBER(path) [](auto& options) -> auto& { return options.path; }
+
+constexpr RunOption kOptions[] = {
+    // The log comes first: an error in the other variables has to be written somewhere.
+    {.name = "log-level",
+     .variable = "TILEPRESS_LOG_LEVEL",
+     .range = "trace, debug, info, warn, error or off",
+     .text = kChoice<kLogLevels, TP_MEMBER(log_level)>,
+     .flags = "--log-level",
+     .metavar = "LEVEL",
+     .help = "trace, debug, info, warn, error or off (default: warn)"},
+    {.name = "log-file",
+     .variable = "TILEPRESS_LOG_FILE",
+     .range = "a file",
+     .text = {[](const RunOption&, RunOptions& options, std::string_view value) -> Result<void> {
+                options.log_file = value;
+                return {};
+              },
+              [](const RunOptions& options) { return options.log_file; }}},
+    {.name = "output",
+     .variable = "TILEPRESS_OUT",
+     .range = "a folder",
+     .text = {set_output, [](const RunOptions& options) { return options.output; }},
+     .flags = "-o,--output",
+     .metavar = "DIR",
+     .help = "Folder for the results"},
+    {.name = "scheme",
+     .variable = "TILEPRESS_SCHEME",
+     .range = "a scheme; see tilepress schemes",
+     .text = {set_schemes, print_schemes},
+     .json_form = JsonForm::kList,
+     .json_key = "schemes",
+     .rows = RowsEffect::kValue,
+     .flags = "-s,--scheme",
+     .metavar = "SPEC",
+     .help = "Scheme as name:key=value,... ; repeat for more (default: all seven; see tilepress schemes)",
+     .joint = ' '},
+    {.name = "tile",
+     .variable = "TILEPRESS_TILE",
+     .range = "a multiple of 8 in 8..4096",
+     .text = kCount<TP_MEMBER(model.tile_side), 8, 4096, whole_blocks>,
+     .json_form = JsonForm::kNumber,
+     .json_key = "tile",
+     .rows = RowsEffect::kAssigned,
+     .flags = "--tile",
+     .metavar = "N",
+     .help = "Side of a render tile in pixels, a multiple of 8 (default: 32)"},
+    {.name = "burst",
+     .variable = "TILEPRESS_BURST",
+     .range = "a power of two in 16..2048",
+     .text = kCount<TP_MEMBER(model.burst_bits), 16, kMaxRawBlockBits, power_of_two>,
+     .json_form = JsonForm::kNumber,
+     .json_key = "burst",
+     .rows = RowsEffect::kAssigned,
+     .flags = "--burst",
+     .metavar = "BITS",
+     .help = "DRAM transfer unit, a power of two (default: 128)"},
+    {.name = "verify",
+     .variable = "TILEPRESS_VERIFY",
+     .range = "1 or 0",
+     .text = kChoice<kSwitch, TP_MEMBER(model.verify)>,
+     .json_form = JsonForm::kBoolean,
+     .json_key = "verify",
+     .rows = RowsEffect::kAssigned,
+     .flags = "--verify",
+     .help = "Encode, decode and compare every block; a mismatch is exit 1"},
+    {.name = "frames",
+     .variable = "TILEPRESS_FRAMES",
+     .range = "frames and ranges of frames, as 0-99,200",
+     .text = {set_frames, [](const RunOptions& options) { return options.frames.text(); }},
+     .json_form = JsonForm::kText,
+     .json_key = "frames",
+     .rows = RowsEffect::kAssigned,
+     .flags = "--frames",
+     .metavar = "RANGES",
+     .help = "Only these frames, as 0-99,200 (default: every frame)"},
+    {.name = "every",
+     .variable = "TILEPRESS_EVERY",
+     .range = "a number in 1..4294967295",
+     .text = kCount<TP_MEMBER(every), 1, kMaxPeriod>,
+     .json_form = JsonForm::kNumber,
+     .json_key = "every",
+     .rows = RowsEffect::kAssigned,
+     .flags = "--every",
+     .metavar = "N",
+     .help = "Only every N-th frame"},
+    {.name = "heatmaps",
+     .variable = "TILEPRESS_HEATMAPS",
+     .range = "every:N",
+     .text = kPeriod<TP_MEMBER(heatmaps_every)>,
+     .flags = "--heatmaps",
+     .metavar = "every:N",
+     .help = "Keep the bits of each block of every N-th frame, as DIR/heatmaps/*.pgm"},
+    {.name = "dump-frames",
+     .variable = "TILEPRESS_DUMP_FRAMES",
+     .range = "every:N",
+     .text = kPeriod<TP_MEMBER(dump_frames_every)>,
+     .flags = "--dump-frames",
+     .metavar = "every:N",
+     .help = "Keep the pixels of every N-th frame, as DIR/frames/*.png"},
+    {.name = "on-full",
+     .variable = "TILEPRESS_ON_FULL",
+     .range = "block or drop",
+     .text = kChoice<kOnFull, TP_MEMBER(on_full)>,
+     .json_form = JsonForm::kText,
+     .json_key = "on_full",
+     .flags = "--on-full",
+     .metavar = "block|drop",
+     .help = "When frames come faster than tilepress compresses them: hold the program, or drop frames and "
+             "count them (default: block)"},
+    {.name = "queue",
+     .variable = "TILEPRESS_QUEUE",
+     .range = "a number in 1..64",
+     .text = kCount<TP_MEMBER(queue_frames), 1, 64>},
+    {.name = "readback",
+     .variable = "TILEPRESS_READBACK",
+     .range = "auto, sync, async or in-context",
+     .text = kChoice<kReadbacks, TP_MEMBER(readback)>,
+     .flags = "--readback",
+     .metavar = "auto|sync|async|in-context",
+     .help = "Read frames at once, through pixel buffers, or in the program's own context (default: auto, "
+             "which decides by the first frames of a window)"},
+    {.name = "trigger",
+     .variable = "TILEPRESS_TRIGGER",
+     .range = "a list of finish, flush, readpixels",
+     .text = {set_triggers, print_triggers},
+     .json_form = JsonForm::kText,
+     .json_key = "trigger",
+     .rows = RowsEffect::kUnlessDefault,
+     .flags = "--trigger",
+     .metavar = "finish|flush|readpixels",
+     .help = "For programs that present nothing: GL calls that end a frame, which is the bound framebuffer; "
+             "a list with commas",
+     .joint = ','},
+    {.name = "targets",
+     .variable = "TILEPRESS_TARGETS",
+     .range = "presented or all",
+     .text = kChoice<kTargets, TP_MEMBER(all_targets)>,
+     .json_form = JsonForm::kText,
+     .json_key = "targets",
+     .rows = RowsEffect::kUnlessDefault,
+     .flags = "--targets",
+     .metavar = "presented|all",
+     .help = "Capture what is presented, or also each image of the program's own framebuffers as a surface of "
+             "its own (default: presented)"},
+};
+
+#undef TP_MEMBER
+
+}  // namespace
+
+std::span<const RunOption> run_option_table() {
+  return kOptions;
+}
+
+const RunOption* find_run_option(std::string_view name) {
+  const auto* found = std::ranges::find(kOptions, name, &RunOption::name);
+  return found == std::end(kOptions) ? nullptr : found;
+}
+
+}  // namespace tilepress
