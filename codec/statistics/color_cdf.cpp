@@ -5,10 +5,18 @@
 #include <cstdio>
 
 #include "tilepress/plane.h"
-#include "tilepress/statistics.h"
 
 namespace tilepress {
 namespace {
+
+constexpr CsvColumn<ColorCdfRow> kColumns[] = {
+    csv_column<ColorCdfRow, &ColorCdfRow::frame>("frame"),
+    csv_column<ColorCdfRow, &ColorCdfRow::surface>("surface"),
+    csv_column<ColorCdfRow, &ColorCdfRow::rank>("rank"),
+    csv_column<ColorCdfRow, &ColorCdfRow::color>("color"),
+    csv_column<ColorCdfRow, &ColorCdfRow::count>("count"),
+    csv_column<ColorCdfRow, &ColorCdfRow::cumulative>("cumulative"),
+};
 
 /// Returns a key that sorts words like their color_text: red first.
 uint64_t text_order(uint32_t color, const FormatTraits& format) {
@@ -57,20 +65,29 @@ std::string color_text(uint32_t color, PixelFormat format) {
   return text;
 }
 
+std::span<const CsvColumn<ColorCdfRow>> color_cdf_columns() {
+  return kColumns;
+}
+
 std::string color_cdf_header() {
-  return "frame,surface,rank,color,count,cumulative\n";
+  return csv_header(kColumns);
 }
 
 void append_color_cdf(uint64_t frame, uint32_t surface, PixelFormat format,
                       const std::vector<ColorCount>& counts, std::string& out) {
-  uint64_t pixels = 0, so_far = 0, rank = 0;
+  uint64_t pixels = 0, so_far = 0;
   for (const ColorCount& entry : counts) pixels += entry.count;
-  const std::string begin = std::to_string(frame) + ',' + std::to_string(surface) + ',';
+  ColorCdfRow row;
+  row.frame = frame;
+  row.surface = surface;
   for (const ColorCount& entry : counts) {
     so_far += entry.count;
-    out += begin + std::to_string(++rank) + ',' + color_text(entry.color, format) + ',' +
-           std::to_string(entry.count) + ',' +
-           csv_number(static_cast<double>(so_far) / static_cast<double>(pixels)) + '\n';
+    ++row.rank;
+    const std::string color = color_text(entry.color, format);
+    row.color = color;
+    row.count = entry.count;
+    row.cumulative = static_cast<double>(so_far) / static_cast<double>(pixels);
+    append_csv_row(kColumns, row, out);
   }
 }
 

@@ -1,11 +1,15 @@
-// CSV reader: one pass over the bytes, quotes as RFC 4180 has them.
+// CSV reader: one pass over the bytes, with the quotes of RFC 4180.
 #include "tilepress/csv_reader.h"
+
+#include <algorithm>
+
+#include "tilepress/csv_rows.h"
 
 namespace tilepress {
 
 bool CsvReader::next(std::vector<std::string>& fields) {
   size_t count = 0;
-  const auto begin_field = [&] {  // in memory of the record before
+  const auto begin_field = [&] {  // reuses the memory of the record before
     if (count < fields.size())
       fields[count].clear();
     else
@@ -39,6 +43,17 @@ bool CsvReader::next(std::vector<std::string>& fields) {
   }
   fields.clear();
   return false;
+}
+
+std::optional<size_t> CsvRecords::find(std::string_view name) const {
+  const auto found = std::find(header_.rbegin(), header_.rend(), name);
+  if (found == header_.rend()) return std::nullopt;
+  return static_cast<size_t>(header_.rend() - found) - 1;
+}
+
+Error CsvRecords::fault(std::string_view name, const std::string& reason) const {
+  return {ErrorKind::kFile,
+          "record " + std::to_string(reader_.record()) + ": " + std::string(name) + ": " + reason};
 }
 
 }  // namespace tilepress

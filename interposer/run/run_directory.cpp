@@ -1,4 +1,4 @@
-// Run directory: the writer's side. One write() per file and frame, schemes.csv before frames.csv.
+// Run directory: the writer.
 #include "tilepress/run_directory.h"
 
 #include <filesystem>
@@ -8,6 +8,7 @@
 #include "run/whole_file.h"
 #include "system_calls.h"
 #include "tilepress/run_reader.h"
+#include "tilepress/statistics_rows.h"
 
 namespace tilepress {
 namespace {
@@ -62,8 +63,8 @@ Result<void> RunWriter::append(const FrameStatistics& frame) {
     std::vector<SchemeStatistics>& totals = target ? target_totals_ : totals_;
     for (size_t i = 0; i < totals.size(); ++i) totals[i] += frame.schemes[i];
   }
-  // run.json only repeats what the rows hold. A program that has dropped privileges may append to open files
-  // and no longer replace one.
+  // A failure here loses nothing: run.json repeats the rows. A program that has dropped privileges can append
+  // to open files and not replace one.
   if (clock_ns(CLOCK_MONOTONIC) - last_json_ns_ >= kJsonPeriodNs) (void)write_json("running", "");
   return {};
 }
@@ -71,7 +72,8 @@ Result<void> RunWriter::append(const FrameStatistics& frame) {
 void RunWriter::set_counts(const RunCounts& counts, const RunCounts& targets) {
   counts_ = counts;
   target_counts_ = targets;
-  if (is_open() && clock_ns(CLOCK_MONOTONIC) - last_json_ns_ >= kJsonPeriodNs) (void)write_json("running", "");
+  if (is_open() && clock_ns(CLOCK_MONOTONIC) - last_json_ns_ >= kJsonPeriodNs)
+    (void)write_json("running", "");
 }
 
 void RunWriter::set_info(const RunInfo& info) {

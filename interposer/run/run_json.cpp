@@ -1,4 +1,4 @@
-// Run JSON: nlohmann's ordered JSON, so that people find the members in the order of this file.
+// Run JSON: members are in the order of this file.
 #include "run/run_json.h"
 
 #include <sys/utsname.h>
@@ -26,17 +26,28 @@ Json host_json() {
           {"cpus", sysconf(_SC_NPROCESSORS_ONLN)}};
 }
 
+constexpr std::pair<const char*, uint64_t RunCounts::*> kCounts[] = {
+    {"seen", &RunCounts::seen},
+    {"captured", &RunCounts::captured},
+    {"dropped", &RunCounts::dropped},
+    {"skipped", &RunCounts::skipped},
+    {"unsupported", &RunCounts::unsupported},
+    {"not_captured", &RunCounts::not_captured}};
+
+constexpr std::pair<const char*, std::string RunInfo::*> kTexts[] = {{"via", &RunInfo::via},
+                                                                     {"api", &RunInfo::api},
+                                                                     {"gl_vendor", &RunInfo::gl_vendor},
+                                                                     {"gl_renderer", &RunInfo::gl_renderer},
+                                                                     {"gl_version", &RunInfo::gl_version}};
+
 Json counts_json(const RunCounts& counts) {
-  return {{"seen", counts.seen},
-          {"captured", counts.captured},
-          {"dropped", counts.dropped},
-          {"skipped", counts.skipped},
-          {"unsupported", counts.unsupported},
-          {"not_captured", counts.not_captured}};
+  Json out = Json::object();
+  for (const auto& [name, member] : kCounts) out[name] = counts.*member;
+  return out;
 }
 
 Json option_json(const RunOption& option, const std::string& value) {
-  switch (option.json_form) {
+  switch (option.json.form) {
     case JsonForm::kNumber:
       return Json::parse(value);
     case JsonForm::kBoolean:
@@ -55,12 +66,12 @@ Json option_json(const RunOption& option, const std::string& value) {
 Json options_json(const RunOptions& options) {
   Json out = Json::object();
   for (const RunOption& option : run_option_table())
-    if (option.json_form != JsonForm::kAbsent)
-      out[std::string(option.json_key)] = option_json(option, option.text.print(options));
+    if (option.json.form != JsonForm::kAbsent)
+      out[std::string(option.json.key)] = option_json(option, option.text.print(options));
   return out;
 }
 
-/// What the powers of totals_json rest on.
+/// The constants behind the powers of totals_json().
 Json energy_json() {
   const CostConstants constants;
   const SurfaceLoad load;
@@ -70,7 +81,7 @@ Json energy_json() {
           {"passes", load.passes}};
 }
 
-/// Bytes that the average measured frame moves raw in a second of 60 refreshes, written and read.
+/// Bytes per second that the average measured frame moves without compression, written and read.
 double raw_bytes_per_s(const SchemeStatistics& sum, uint64_t measured_frames) {
   const SurfaceLoad load;
   const double frame_bytes = static_cast<double>(sum.raw_bits) / 8 / static_cast<double>(measured_frames);
@@ -90,7 +101,7 @@ Json totals_json(const std::vector<std::string>& names, const std::vector<Scheme
                   {"csb_bits", sum.csb_bits},
                   {"palette_bits", sum.palette_bits},
                   {"moved_bits", sum.moved_bits()}};
-    // A run without measured frames has no rate; JSON has no NaN to say so with.
+    // A run without measured frames has no rate, and JSON has no NaN.
     entry["rate_payload"] = sum.raw_bits > 0 ? Json(sum.rate_payload()) : Json(nullptr);
     entry["rate"] = sum.raw_bits > 0 ? Json(sum.rate()) : Json(nullptr);
     if (sum.rate() > 0 && measured_frames > 0) {
@@ -108,7 +119,7 @@ Json totals_json(const std::vector<std::string>& names, const std::vector<Scheme
   return list;
 }
 
-/// What the images of framebuffer objects came to, apart from what is presented.
+/// The figures of images of framebuffer objects, apart from what is presented.
 Json targets_json(const RunCounts& counts, uint64_t measured_frames, const std::vector<std::string>& names,
                   const std::vector<SchemeStatistics>& totals) {
   return {{"counts", counts_json(counts)},
@@ -127,19 +138,14 @@ void take(const Json& object, const char* name, T& out) {
   try {
     out = member->get<T>();
   } catch (const Json::exception&) {
-    // A member of another type is one we do not know: left as it was.
+    // A member of another type is none that this version knows.
   }
 }
 
 void take_counts(const Json& owner, RunCounts& out) {
   const auto counts = owner.find("counts");
   if (counts == owner.end() || !counts->is_object()) return;
-  take(*counts, "seen", out.seen);
-  take(*counts, "captured", out.captured);
-  take(*counts, "dropped", out.dropped);
-  take(*counts, "skipped", out.skipped);
-  take(*counts, "unsupported", out.unsupported);
-  take(*counts, "not_captured", out.not_captured);
+  for (const auto& [name, member] : kCounts) take(*counts, name, out.*member);
 }
 
 }  // namespace
@@ -164,12 +170,8 @@ std::string run_json_text(const RunDocument& document) {
                {"started", document.started},
                {"command", info.command},
                {"program", info.program},
-               {"pid", info.pid},
-               {"via", info.via},
-               {"api", info.api},
-               {"gl_vendor", info.gl_vendor},
-               {"gl_renderer", info.gl_renderer},
-               {"gl_version", info.gl_version}};
+               {"pid", info.pid}};
+  for (const auto& [name, member] : kTexts) json[name] = info.*member;
   for (const auto& [name, value] : info.further) json[name] = value;
   json["host"] = host_json();
   json["options"] = options_json(document.options);
@@ -193,18 +195,14 @@ Result<void> read_run_json(std::string_view text, RunRecord& record) {
   take(json, "command", info.command);
   take(json, "program", info.program);
   take(json, "pid", info.pid);
-  take(json, "via", info.via);
-  take(json, "api", info.api);
-  take(json, "gl_vendor", info.gl_vendor);
-  take(json, "gl_renderer", info.gl_renderer);
-  take(json, "gl_version", info.gl_version);
-  static constexpr const char* kKnown[] = {
-      "state", "reason",    "started",     "program",    "via",
-      "api",   "gl_vendor", "gl_renderer", "gl_version", "tilepress_version"};
-  for (const auto& [name, value] : json.items()) {
-    const bool known = std::find(std::begin(kKnown), std::end(kKnown), name) != std::end(kKnown);
-    if (value.is_string() && !known) info.further.emplace_back(name, value.get<std::string>());
-  }
+  for (const auto& [name, member] : kTexts) take(json, name, info.*member);
+  const auto known = [](const std::string& name) {
+    for (const char* other : {"state", "reason", "started", "program", "tilepress_version"})
+      if (name == other) return true;
+    return std::ranges::any_of(kTexts, [&](const auto& member) { return name == member.first; });
+  };
+  for (const auto& [name, value] : json.items())
+    if (value.is_string() && !known(name)) info.further.emplace_back(name, value.get<std::string>());
   take_counts(json, record.counts);
   if (const auto targets = json.find("targets"); targets != json.end() && targets->is_object())
     take_counts(*targets, record.target_counts);

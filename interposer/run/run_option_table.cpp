@@ -23,7 +23,8 @@ Result<void> refuse(const RunOption& option, std::string_view value) {
 std::optional<uint64_t> parse_count(std::string_view text, uint64_t least, uint64_t most) {
   uint64_t value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool fits = code == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
+  const bool fits =
+      code == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
   return fits ? std::optional(value) : std::nullopt;
 }
 
@@ -64,6 +65,15 @@ constexpr OptionText kPeriod = {
     [](const RunOptions& options) {
       return member(options) == 0 ? "" : "every:" + std::to_string(member(options));
     }};
+
+template <auto member, bool may_be_empty = true>
+constexpr OptionText kText = {
+    [](const RunOption& option, RunOptions& options, std::string_view value) -> Result<void> {
+      if (value.empty() && !may_be_empty) return refuse(option, value);
+      member(options) = value;
+      return {};
+    },
+    [](const RunOptions& options) { return member(options); }};
 
 template <class T>
 struct Choice {
@@ -153,158 +163,86 @@ Result<void> set_frames(const RunOption&, RunOptions& options, std::string_view 
   return {};
 }
 
-Result<void> set_output(const RunOption& option, RunOptions& options, std::string_view value) {
-  if (value.empty()) return refuse(option, value);
-  options.output = value;
-  return {};
-}
+#define TP_MEMBER(path)        \
+  [](auto& options) -> auto& { \
+    return options.path;       \
+  }
 
-#define TP_MEMBER(path) [](auto& options) -> auto& { return options.path; }
-
+// clang-format off
 constexpr RunOption kOptions[] = {
-    // The log comes first: an error in the other variables has to be written somewhere.
-    {.name = "log-level",
-     .variable = "TILEPRESS_LOG_LEVEL",
+    // The log comes first, because the log takes the errors in the other variables.
+    {.name = "log-level", .variable = "TILEPRESS_LOG_LEVEL",
      .range = "trace, debug, info, warn, error or off",
      .text = kChoice<kLogLevels, TP_MEMBER(log_level)>,
-     .flags = "--log-level",
-     .metavar = "LEVEL",
+     .flags = "--log-level", .metavar = "LEVEL",
      .help = "trace, debug, info, warn, error or off (default: warn)"},
-    {.name = "log-file",
-     .variable = "TILEPRESS_LOG_FILE",
-     .range = "a file",
-     .text = {[](const RunOption&, RunOptions& options, std::string_view value) -> Result<void> {
-                options.log_file = value;
-                return {};
-              },
-              [](const RunOptions& options) { return options.log_file; }}},
-    {.name = "output",
-     .variable = "TILEPRESS_OUT",
-     .range = "a folder",
-     .text = {set_output, [](const RunOptions& options) { return options.output; }},
-     .flags = "-o,--output",
-     .metavar = "DIR",
-     .help = "Folder for the results"},
-    {.name = "scheme",
-     .variable = "TILEPRESS_SCHEME",
-     .range = "a scheme; see tilepress schemes",
+    {.name = "log-file", .variable = "TILEPRESS_LOG_FILE", .range = "a file",
+     .text = kText<TP_MEMBER(log_file)>},
+    {.name = "output", .variable = "TILEPRESS_OUT", .range = "a folder",
+     .text = kText<TP_MEMBER(output), false>,
+     .flags = "-o,--output", .metavar = "DIR", .help = "Folder for the results"},
+    {.name = "scheme", .variable = "TILEPRESS_SCHEME", .range = "a scheme; see tilepress schemes",
      .text = {set_schemes, print_schemes},
-     .json_form = JsonForm::kList,
-     .json_key = "schemes",
-     .rows = RowsEffect::kValue,
-     .flags = "-s,--scheme",
-     .metavar = "SPEC",
-     .help = "Scheme as name:key=value,... ; repeat for more (default: all seven; see tilepress schemes)",
-     .joint = ' '},
-    {.name = "tile",
-     .variable = "TILEPRESS_TILE",
-     .range = "a multiple of 8 in 8..4096",
+     .json = {JsonForm::kList, "schemes"}, .rows = RowsEffect::kValue,
+     .flags = "-s,--scheme", .metavar = "SPEC", .joint = ' ',
+     .help = "Scheme as name:key=value,... ; repeat for more (default: all seven; see tilepress schemes)"},
+    {.name = "tile", .variable = "TILEPRESS_TILE", .range = "a multiple of 8 in 8..4096",
      .text = kCount<TP_MEMBER(model.tile_side), 8, 4096, whole_blocks>,
-     .json_form = JsonForm::kNumber,
-     .json_key = "tile",
-     .rows = RowsEffect::kAssigned,
-     .flags = "--tile",
-     .metavar = "N",
+     .json = {JsonForm::kNumber, "tile"}, .rows = RowsEffect::kAssigned,
+     .flags = "--tile", .metavar = "N",
      .help = "Side of a render tile in pixels, a multiple of 8 (default: 32)"},
-    {.name = "burst",
-     .variable = "TILEPRESS_BURST",
-     .range = "a power of two in 16..2048",
+    {.name = "burst", .variable = "TILEPRESS_BURST", .range = "a power of two in 16..2048",
      .text = kCount<TP_MEMBER(model.burst_bits), 16, kMaxRawBlockBits, power_of_two>,
-     .json_form = JsonForm::kNumber,
-     .json_key = "burst",
-     .rows = RowsEffect::kAssigned,
-     .flags = "--burst",
-     .metavar = "BITS",
-     .help = "DRAM transfer unit, a power of two (default: 128)"},
-    {.name = "verify",
-     .variable = "TILEPRESS_VERIFY",
-     .range = "1 or 0",
+     .json = {JsonForm::kNumber, "burst"}, .rows = RowsEffect::kAssigned,
+     .flags = "--burst", .metavar = "BITS", .help = "DRAM transfer unit, a power of two (default: 128)"},
+    {.name = "verify", .variable = "TILEPRESS_VERIFY", .range = "1 or 0",
      .text = kChoice<kSwitch, TP_MEMBER(model.verify)>,
-     .json_form = JsonForm::kBoolean,
-     .json_key = "verify",
-     .rows = RowsEffect::kAssigned,
-     .flags = "--verify",
-     .help = "Encode, decode and compare every block; a mismatch is exit 1"},
-    {.name = "frames",
-     .variable = "TILEPRESS_FRAMES",
-     .range = "frames and ranges of frames, as 0-99,200",
+     .json = {JsonForm::kBoolean, "verify"}, .rows = RowsEffect::kAssigned,
+     .flags = "--verify", .help = "Encode, decode and compare every block; a mismatch is exit 1"},
+    {.name = "frames", .variable = "TILEPRESS_FRAMES", .range = "frames and ranges of frames, as 0-99,200",
      .text = {set_frames, [](const RunOptions& options) { return options.frames.text(); }},
-     .json_form = JsonForm::kText,
-     .json_key = "frames",
-     .rows = RowsEffect::kAssigned,
-     .flags = "--frames",
-     .metavar = "RANGES",
+     .json = {JsonForm::kText, "frames"}, .rows = RowsEffect::kAssigned,
+     .flags = "--frames", .metavar = "RANGES",
      .help = "Only these frames, as 0-99,200 (default: every frame)"},
-    {.name = "every",
-     .variable = "TILEPRESS_EVERY",
-     .range = "a number in 1..4294967295",
+    {.name = "every", .variable = "TILEPRESS_EVERY", .range = "a number in 1..4294967295",
      .text = kCount<TP_MEMBER(every), 1, kMaxPeriod>,
-     .json_form = JsonForm::kNumber,
-     .json_key = "every",
-     .rows = RowsEffect::kAssigned,
-     .flags = "--every",
-     .metavar = "N",
-     .help = "Only every N-th frame"},
-    {.name = "heatmaps",
-     .variable = "TILEPRESS_HEATMAPS",
-     .range = "every:N",
+     .json = {JsonForm::kNumber, "every"}, .rows = RowsEffect::kAssigned,
+     .flags = "--every", .metavar = "N", .help = "Only every N-th frame"},
+    {.name = "heatmaps", .variable = "TILEPRESS_HEATMAPS", .range = "every:N",
      .text = kPeriod<TP_MEMBER(heatmaps_every)>,
-     .flags = "--heatmaps",
-     .metavar = "every:N",
+     .flags = "--heatmaps", .metavar = "every:N",
      .help = "Keep the bits of each block of every N-th frame, as DIR/heatmaps/*.pgm"},
-    {.name = "dump-frames",
-     .variable = "TILEPRESS_DUMP_FRAMES",
-     .range = "every:N",
+    {.name = "dump-frames", .variable = "TILEPRESS_DUMP_FRAMES", .range = "every:N",
      .text = kPeriod<TP_MEMBER(dump_frames_every)>,
-     .flags = "--dump-frames",
-     .metavar = "every:N",
+     .flags = "--dump-frames", .metavar = "every:N",
      .help = "Keep the pixels of every N-th frame, as DIR/frames/*.png"},
-    {.name = "on-full",
-     .variable = "TILEPRESS_ON_FULL",
-     .range = "block or drop",
+    {.name = "on-full", .variable = "TILEPRESS_ON_FULL", .range = "block or drop",
      .text = kChoice<kOnFull, TP_MEMBER(on_full)>,
-     .json_form = JsonForm::kText,
-     .json_key = "on_full",
-     .flags = "--on-full",
-     .metavar = "block|drop",
+     .json = {JsonForm::kText, "on_full"},
+     .flags = "--on-full", .metavar = "block|drop",
      .help = "When frames come faster than tilepress compresses them: hold the program, or drop frames and "
              "count them (default: block)"},
-    {.name = "queue",
-     .variable = "TILEPRESS_QUEUE",
-     .range = "a number in 1..64",
+    {.name = "queue", .variable = "TILEPRESS_QUEUE", .range = "a number in 1..64",
      .text = kCount<TP_MEMBER(queue_frames), 1, 64>},
-    {.name = "readback",
-     .variable = "TILEPRESS_READBACK",
-     .range = "auto, sync, async or in-context",
+    {.name = "readback", .variable = "TILEPRESS_READBACK", .range = "auto, sync, async or in-context",
      .text = kChoice<kReadbacks, TP_MEMBER(readback)>,
-     .flags = "--readback",
-     .metavar = "auto|sync|async|in-context",
+     .flags = "--readback", .metavar = "auto|sync|async|in-context",
      .help = "Read frames at once, through pixel buffers, or in the program's own context (default: auto, "
              "which decides by the first frames of a window)"},
-    {.name = "trigger",
-     .variable = "TILEPRESS_TRIGGER",
-     .range = "a list of finish, flush, readpixels",
+    {.name = "trigger", .variable = "TILEPRESS_TRIGGER", .range = "a list of finish, flush, readpixels",
      .text = {set_triggers, print_triggers},
-     .json_form = JsonForm::kText,
-     .json_key = "trigger",
-     .rows = RowsEffect::kUnlessDefault,
-     .flags = "--trigger",
-     .metavar = "finish|flush|readpixels",
+     .json = {JsonForm::kText, "trigger"}, .rows = RowsEffect::kUnlessDefault,
+     .flags = "--trigger", .metavar = "finish|flush|readpixels", .joint = ',',
      .help = "For programs that present nothing: GL calls that end a frame, which is the bound framebuffer; "
-             "a list with commas",
-     .joint = ','},
-    {.name = "targets",
-     .variable = "TILEPRESS_TARGETS",
-     .range = "presented or all",
+             "a list with commas"},
+    {.name = "targets", .variable = "TILEPRESS_TARGETS", .range = "presented or all",
      .text = kChoice<kTargets, TP_MEMBER(all_targets)>,
-     .json_form = JsonForm::kText,
-     .json_key = "targets",
-     .rows = RowsEffect::kUnlessDefault,
-     .flags = "--targets",
-     .metavar = "presented|all",
-     .help = "Capture what is presented, or also each image of the program's own framebuffers as a surface of "
-             "its own (default: presented)"},
+     .json = {JsonForm::kText, "targets"}, .rows = RowsEffect::kUnlessDefault,
+     .flags = "--targets", .metavar = "presented|all",
+     .help = "Capture what is presented, or also each image of the program's own framebuffers as a surface "
+             "of its own (default: presented)"},
 };
+// clang-format on
 
 #undef TP_MEMBER
 

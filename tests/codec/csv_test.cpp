@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
-#include "tilepress/statistics.h"
+#include "tilepress/statistics_rows.h"
 
 using namespace tilepress;
 
@@ -65,6 +67,58 @@ TEST(Csv, ARowPerSchemeWithAsManyFieldsAsTheHeader) {
   std::string row;
   append_frames_row(frame, row);
   EXPECT_EQ(row.find("7,2,640,480,RGB565,1,0,0,0,"), 0u) << row;
+}
+
+/// Prints `row`, reads each field into a new row, and expects that row to print the same.
+template <class Row>
+void expect_to_read_back(std::span<const CsvColumn<Row>> columns, const Row& row) {
+  std::vector<std::string> fields;
+  for (const auto& column : columns) column.print(row, fields.emplace_back());
+  Row back;
+  for (size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].read == nullptr) continue;
+    EXPECT_TRUE(columns[i].read(fields[i], back)) << columns[i].name;
+    std::string again;
+    columns[i].print(back, again);
+    EXPECT_EQ(again, fields[i]) << columns[i].name;
+  }
+}
+
+TEST(Csv, EachColumnReadsBackWhatItPrinted) {
+  FrameStatistics frame;
+  frame.frame = 7;
+  frame.surface = 2;
+  frame.width = 640;
+  frame.height = 480;
+  frame.format = PixelFormat::kRgb10a2;
+  frame.warmup = true;
+  frame.time_ns = 1'000'000'007;
+  frame.metrics = {12, 3.25, 0.5, 0.25, 1.0 / 3, 0.75, 0.875};
+  frame.readback_ns = 8;
+  frame.encode_ns = 9;
+  expect_to_read_back(frame_columns(), frame);
+
+  SchemeRow row{7, 2, "ras", true, {}};
+  row.figures.blocks = 1;
+  row.figures.raw_bits = 2048;
+  row.figures.payload_bits = 1000;
+  row.figures.bursts = 8;
+  row.figures.csb_bits = 24;
+  row.figures.palette_bits = 66;
+  row.figures.extra_bits = 3;
+  row.figures.checked_blocks = 4;
+  row.figures.mismatched_blocks = 5;
+  expect_to_read_back(scheme_columns(), row);
+  expect_to_read_back(scheme_check_columns(), row);
+}
+
+TEST(Csv, AColumnRefusesAFieldThatIsNone) {
+  FrameStatistics frame;
+  for (const auto& column : frame_columns()) {
+    if (column.name == "warmup") continue;
+    EXPECT_FALSE(column.read("", frame)) << column.name;
+    EXPECT_FALSE(column.read("12x", frame)) << column.name;
+  }
 }
 
 TEST(Statistics, ARateOfNothingMovedIsZeroNotInfinite) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "surface_patterns.h"
+#include "tilepress/statistics_rows.h"
 #include "tilepress/surface_engine.h"
 #include "tilepress/surface_reader.h"
 

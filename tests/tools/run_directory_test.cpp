@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tilepress/csv_reader.h"
 #include "tilepress/run_reader.h"
+#include "tilepress/statistics_rows.h"
 
 namespace tilepress {
 namespace {
@@ -259,7 +259,7 @@ TEST_F(RunDirectory, ClosingMakesUpForALostJson) {
 TEST_F(RunDirectory, NamesTheFileAndTheRecordThatIsMalformed) {
   write_frames(2);
   add("frames.csv", "2,0,16,8,RGBX8,0,zero,1,0,0,0,0,0,0,0,0\n");
-  EXPECT_EQ(reading_error(), path_ + "/frames.csv: record 4: time_ns is no number");
+  EXPECT_EQ(reading_error(), path_ + "/frames.csv: record 4: time_ns: cannot read 'zero'");
 }
 
 TEST_F(RunDirectory, ASurplusFieldIsNotThatOfAMissingColumn) {
@@ -268,24 +268,12 @@ TEST_F(RunDirectory, ASurplusFieldIsNotThatOfAMissingColumn) {
   const std::string column = ",encode_ns";
   rows.erase(rows.find(column), column.size());
   std::ofstream(path_ + "/frames.csv") << rows;
-  EXPECT_EQ(reading_error(), path_ + "/frames.csv: record 2: encode_ns is no number");
+  EXPECT_EQ(reading_error(), path_ + "/frames.csv: record 2: encode_ns: the field is missing");
 }
 
 TEST_F(RunDirectory, AnEmptyFolderHoldsNoRun) {
   fs::create_directories(path_);
   EXPECT_EQ(reading_error(), path_ + ": holds no run");
-}
-
-TEST(CsvReader, KnowsQuotesAsRfc4180HasThem) {
-  const std::string text = "a,\"b,1\",\"c\"\"q\"\r\n\"two\nlines\",,\nunfinished,\"";
-  CsvReader reader(text);
-  std::vector<std::string> fields;
-  ASSERT_TRUE(reader.next(fields));
-  EXPECT_THAT(fields, ElementsAre("a", "b,1", "c\"q"));
-  ASSERT_TRUE(reader.next(fields));
-  EXPECT_THAT(fields, ElementsAre("two\nlines", "", ""));
-  EXPECT_FALSE(reader.next(fields));
-  EXPECT_EQ(text.substr(reader.offset()), "unfinished,\"");
 }
 
 }  // namespace

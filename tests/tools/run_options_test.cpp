@@ -175,7 +175,7 @@ TEST(RunOptionTable, NamesVariablesAndFlagsAreUnique) {
       EXPECT_THAT(option.flags, ::testing::EndsWith("--" + std::string(option.name)));
     }
     EXPECT_EQ(option.flags.empty(), option.help.empty()) << option.name;
-    EXPECT_EQ(option.json_form == JsonForm::kAbsent, option.json_key.empty()) << option.name;
+    EXPECT_EQ(option.json.form == JsonForm::kAbsent, option.json.key.empty()) << option.name;
   }
   EXPECT_EQ(find_run_option("frob"), nullptr);
 }

@@ -1,15 +1,15 @@
-// Present costs: sums of columns, found by name because runs of older versions have fewer.
+// Present costs: sums over the rows of presents.csv.
 #include "capture/present_costs.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <utility>
 
-#include "tilepress/csv_reader.h"
+#include "tilepress/csv_rows.h"
+#include "tilepress/present_rows.h"
 
 namespace tilepress {
 
@@ -17,25 +17,22 @@ PresentCosts present_costs(const RunRecord& run) {
   PresentCosts costs;
   std::ifstream file(run.path + "/presents.csv");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  CsvReader reader(text);
-  std::vector<std::string> names, row;
-  if (!reader.next(names)) return costs;
-  const std::pair<const char*, double*> columns[] = {{"readback_ns", &costs.readback_ns},
-                                                     {"read_ns", &costs.read_ns},
-                                                     {"bind_ns", &costs.bind_ns},
-                                                     {"hand_off_ns", &costs.hand_off_ns},
-                                                     {"wait_ns", &costs.wait_ns}};
-  while (reader.next(row)) {
-    if (row.size() < names.size() || row[0] == "0") continue;  // frame 0 pays for the start of it all
+  CsvRecords records(text);
+  const CsvRowReader<PresentRow> reader(records, present_columns());
+  constexpr std::pair<uint64_t PresentRow::*, double PresentCosts::*> kSums[] = {
+      {&PresentRow::readback_ns, &PresentCosts::readback_ns},
+      {&PresentRow::read_ns, &PresentCosts::read_ns},
+      {&PresentRow::bind_ns, &PresentCosts::bind_ns},
+      {&PresentRow::hand_off_ns, &PresentCosts::hand_off_ns},
+      {&PresentRow::wait_ns, &PresentCosts::wait_ns}};
+  while (records.next()) {
+    PresentRow row;
+    if (!reader.read(row) || row.frame == 0) continue;  // frame 0 also pays for the start
     ++costs.frames;
-    for (const auto& [name, sum] : columns) {
-      const auto at = std::find(names.begin(), names.end(), name);
-      if (at != names.end())
-        *sum += std::strtod(row[static_cast<size_t>(at - names.begin())].c_str(), nullptr);
-    }
+    for (const auto& [part, sum] : kSums) costs.*sum += static_cast<double>(row.*part);
   }
   if (costs.frames == 0) return costs;
-  for (const auto& [name, sum] : columns) *sum /= static_cast<double>(costs.frames);
+  for (const auto& [part, sum] : kSums) costs.*sum /= static_cast<double>(costs.frames);
   for (const FrameStatistics& frame : run.frames)
     if (!frame.warmup) costs.encode_ns += static_cast<double>(frame.encode_ns);
   costs.encode_ns /= static_cast<double>(std::max<uint64_t>(run.measured_frames, 1));

@@ -1,42 +1,37 @@
-// Present series: rows "surface,begin_ns,hook_ns" as the shim appends them.
+// Present series: the rows of .times files as intervals.
 #include "capture/present_series.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <numeric>
 
-#include "tilepress/csv_reader.h"
+#include "tilepress/csv_rows.h"
+#include "tilepress/present_rows.h"
 
 namespace tilepress {
 namespace {
 
-struct Present {
-  uint64_t begin_ns, hook_ns;
-};
-
 /// Frames presented before the first interval that counts: the shim loads itself in the first.
 constexpr size_t kStartUpFrames = 2;
 
-std::map<std::string, std::vector<Present>> presents_by_window(const std::filesystem::path& path) {
+using Presents = std::vector<PresentTimeRow>;
+
+std::map<uint64_t, Presents> presents_by_window(const std::filesystem::path& path) {
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  std::map<std::string, std::vector<Present>> windows;
-  CsvReader reader(text);
-  std::vector<std::string> row;
-  reader.next(row);  // the header
-  while (reader.next(row))
-    if (row.size() >= 3)
-      windows[row[0]].push_back(
-          {std::strtoull(row[1].c_str(), nullptr, 10), std::strtoull(row[2].c_str(), nullptr, 10)});
+  std::map<uint64_t, Presents> windows;
+  CsvRecords records(text);
+  const CsvRowReader<PresentTimeRow> reader(records, present_time_columns());
+  while (records.next())
+    if (PresentTimeRow row; reader.read(row)) windows[row.window].push_back(row);
   return windows;
 }
 
-PresentSeries series_of(const std::vector<Present>& presents) {
+PresentSeries series_of(const Presents& presents) {
   PresentSeries series;
   series.presents = presents.size();
   double hook_sum_ns = 0;
@@ -65,7 +60,7 @@ double PresentSeries::quantile_ns(double part) const {
 }
 
 PresentSeries busiest_series(const std::string& folder) {
-  std::vector<Present> busiest;
+  Presents busiest;
   std::error_code code;
   for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
     if (entry.path().extension() != ".times") continue;

@@ -7,7 +7,7 @@
 
 #include "printable.h"
 #include "streams/output_file.h"
-#include "tilepress/statistics.h"
+#include "tilepress/csv_table.h"
 
 namespace tilepress {
 namespace {

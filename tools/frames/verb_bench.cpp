@@ -7,8 +7,8 @@
 #include "common_options.h"
 #include "frames/image_frames.h"
 #include "streams/output_file.h"
+#include "tilepress/csv_table.h"
 #include "tilepress/simd.h"
-#include "tilepress/statistics.h"
 #include "verb.h"
 
 namespace tilepress {

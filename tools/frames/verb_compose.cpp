@@ -14,8 +14,8 @@
 #include "frames/packed_file.h"
 #include "frames/read_options.h"
 #include "streams/output_file.h"
+#include "tilepress/csv_table.h"
 #include "tilepress/run_options.h"
-#include "tilepress/statistics.h"
 #include "verb.h"
 
 namespace tilepress {

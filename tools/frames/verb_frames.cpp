@@ -16,6 +16,7 @@
 #include "summary_table.h"
 #include "tilepress/frame_pictures.h"
 #include "tilepress/run_directory.h"
+#include "tilepress/statistics_rows.h"
 #include "verb.h"
 
 namespace tilepress {

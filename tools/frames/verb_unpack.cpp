@@ -11,6 +11,7 @@
 #include "frames/packed_file.h"
 #include "frames/read_options.h"
 #include "streams/output_file.h"
+#include "tilepress/csv_table.h"
 #include "tilepress/run_options.h"
 #include "tilepress/statistics.h"
 #include "tilepress/surface_reader.h"

@@ -2,14 +2,14 @@
 #include "cdf_plot.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
 
-#include "tilepress/csv_reader.h"
+#include "tilepress/color_cdf.h"
+#include "tilepress/csv_rows.h"
 
 namespace tilepress {
 namespace {
@@ -28,12 +28,6 @@ class RankChoice {
   std::vector<uint64_t> ranks_{1};
 };
 
-template <typename T>
-bool number(const std::string& text, T& value) {
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return code == std::errc() && end == text.data() + text.size();
-}
-
 /// Cumulative share by rank of one frame; its last rank is always there.
 using Curve = std::map<uint64_t, double>;
 
@@ -42,32 +36,23 @@ using Curve = std::map<uint64_t, double>;
 std::vector<CdfPlot> load_cdf_plots(const std::string& run_path, const std::string& slug) {
   std::ifstream file(run_path + "/cdf.csv", std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(file), {});
-  CsvReader reader(text);
-  std::vector<std::string> fields;
-  const std::vector<std::string> header = {"frame", "surface", "rank", "color", "count", "cumulative"};
-  if (!reader.next(fields) || fields.size() < header.size() ||
-      !std::equal(header.begin(), header.end(), fields.begin()))
-    return {};
+  CsvRecords records(text);
+  const CsvRowReader<ColorCdfRow> reader(records, color_cdf_columns());
   std::map<uint32_t, std::map<uint64_t, Curve>> surfaces;
   RankChoice choice;
-  uint64_t frame = 0, rank = 0, last_rank = 0;
-  uint32_t surface = 0;
-  double share = 0, last_share = 0;
+  ColorCdfRow row, last;
   Curve* curve = nullptr;
-  while (reader.next(fields)) {
-    if (fields.size() < header.size() || !number(fields[0], frame) || !number(fields[1], surface) ||
-        !number(fields[2], rank) || !number(fields[5], share))
-      return {};
-    if (rank == 1) {
-      if (curve != nullptr) (*curve)[last_rank] = last_share;
-      curve = &surfaces[surface][frame];
+  while (records.next()) {
+    if (!reader.read(row)) return {};
+    if (row.rank == 1) {
+      if (curve != nullptr) (*curve)[last.rank] = last.cumulative;
+      curve = &surfaces[row.surface][row.frame];
     }
     if (curve == nullptr) return {};
-    if (choice.drawn(rank)) (*curve)[rank] = share;
-    last_rank = rank;
-    last_share = share;
+    if (choice.drawn(row.rank)) (*curve)[row.rank] = row.cumulative;
+    last = row;
   }
-  if (curve != nullptr) (*curve)[last_rank] = last_share;
+  if (curve != nullptr) (*curve)[last.rank] = last.cumulative;
 
   std::vector<CdfPlot> out;
   for (const auto& [number_of, frames] : surfaces) {

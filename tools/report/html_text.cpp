@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tilepress/statistics.h"
+#include "tilepress/csv_table.h"
 
 namespace tilepress {
 

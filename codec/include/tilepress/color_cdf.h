@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "tilepress/csv_table.h"
 #include "tilepress/surface.h"
 
 namespace tilepress {
@@ -22,9 +25,19 @@ std::vector<ColorCount> color_counts(const SurfaceView& frame);
 /// is FF. RGB10A2 returns its plain values "#RRRGGGBBBA": three digits per colour channel and one for alpha.
 std::string color_text(uint32_t color, PixelFormat format);
 
-/// CSV columns: frame,surface,rank,color,count,cumulative. Ranks begin at 1. `cumulative` is the share of the
-/// frame's pixels that this and all more frequent colours cover; it is 1 in the last row.
+/// A row of cdf.csv: a colour of a frame.
+struct ColorCdfRow {
+  uint64_t frame = 0;
+  uint32_t surface = 0;
+  uint64_t rank = 0;       ///< from 1, the most frequent colour
+  std::string_view color;  ///< color_text()
+  uint64_t count = 0;      ///< pixels
+  double cumulative = 0;   ///< share of the frame's pixels that this and all more frequent colours cover
+};
+std::span<const CsvColumn<ColorCdfRow>> color_cdf_columns();
+
 std::string color_cdf_header();
+/// Appends the rows of a frame, in the order of `counts`.
 void append_color_cdf(uint64_t frame, uint32_t surface, PixelFormat format,
                       const std::vector<ColorCount>& counts, std::string& out);
 

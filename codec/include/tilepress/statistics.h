@@ -3,8 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "tilepress/pixel_format.h"
@@ -71,17 +69,5 @@ struct FrameStatistics {
   FrameMetrics metrics;
   std::vector<SchemeStatistics> schemes;  ///< in the order the schemes were given
 };
-
-/// CSV rows of a run's files (spec §10; RFC 4180, '\n' line ends). Each row ends with a newline.
-std::string frames_csv_header();
-std::string schemes_csv_header();
-void append_frames_row(const FrameStatistics& frame, std::string& out);
-/// One row per scheme; scheme_names[i] is the specification of frame.schemes[i].
-void append_schemes_rows(const FrameStatistics& frame, const std::vector<std::string>& scheme_names,
-                         std::string& out);
-/// Quotes a field if RFC 4180 requires it.
-std::string csv_field(std::string_view text);
-/// Returns the shortest decimal that reads back as the same double. The decimal point is '.' in every locale.
-std::string csv_number(double value);
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// CSV reader: the records of an RFC 4180 file, with where each one ends.
+// CSV reader: the records of an RFC 4180 file, and where each record ends.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,15 @@
 namespace tilepress {
 
 /// Walks over `text`, which must outlive the reader. A record ends with a newline ("\n" or "\r\n") outside
-/// quotes; what stands after the last one is a record still being written and is never given out.
+/// quotes. Text after the last newline is a record that is still being written: the reader skips it.
 class CsvReader {
  public:
   explicit CsvReader(std::string_view text) : text_(text) {}
-  /// Next complete record; false at the end.
+  /// Reads the next complete record; false at the end.
   bool next(std::vector<std::string>& fields);
-  /// First byte after the last record given out.
+  /// First byte after the last record that next() read.
   size_t offset() const { return offset_; }
-  /// Number of the record last given out, the header being 1.
+  /// Number of that record. The header is record 1.
   size_t record() const { return record_; }
 
  private:

@@ -17,9 +17,9 @@ enum class JsonForm : uint8_t { kAbsent, kList, kNumber, kBoolean, kText };
 /// Whether an option changes a run's rows, and how rows_fingerprint() shows the option.
 enum class RowsEffect : uint8_t {
   kNone,
-  kValue,           ///< "value"
-  kAssigned,        ///< "name=value"
-  kUnlessDefault,   ///< "name=value" where the value is not the default
+  kValue,          ///< "value"
+  kAssigned,       ///< "name=value"
+  kUnlessDefault,  ///< "name=value" where the value is not the default
 };
 
 struct RunOption;
@@ -33,17 +33,19 @@ struct OptionText {
 };
 
 struct RunOption {
-  std::string_view name;        ///< long name without dashes
-  std::string_view variable;    ///< TILEPRESS_*
-  std::string_view range;       ///< the values it takes, to follow "must be"
+  std::string_view name;      ///< long name without dashes
+  std::string_view variable;  ///< TILEPRESS_*
+  std::string_view range;     ///< the values it takes, to follow "must be"
   OptionText text;
-  JsonForm json_form = JsonForm::kAbsent;
-  std::string_view json_key = {};
+  struct {
+    JsonForm form = JsonForm::kAbsent;
+    std::string_view key;
+  } json = {};
   RowsEffect rows = RowsEffect::kNone;
   std::string_view flags = {};    ///< on the command line: "-s,--scheme"; empty = not there
   std::string_view metavar = {};  ///< in the help; empty = a flag without a value
-  std::string_view help = {};
   char joint = 0;  ///< between the values of an option that is given several times; 0 = given once
+  std::string_view help = {};
 };
 
 /// In the order of run.json, after the options of the log.

@@ -1,4 +1,4 @@
-// Run reader: a run directory as statistics again, repaired where its program was killed.
+// Run reader: reads a run directory back, and repairs it where the program was killed.
 #pragma once
 
 #include <algorithm>
@@ -15,27 +15,27 @@ namespace tilepress {
 /// A run directory read back.
 struct RunRecord {
   std::string path;
-  /// Of run.json: "running", "finished", "failed", "killed by signal 9"; "ended" if the program ended without
-  /// exit() and its writer finished the run.
+  /// From run.json: "running", "finished", "failed", "killed by signal 9", or "ended": the program ended
+  /// without exit() and its writer finished the run.
   std::string state = "running";
   std::string reason;
-  std::string started;  ///< UTC, ISO 8601; empty if run.json does not tell
+  std::string started;  ///< UTC, ISO 8601; empty if unknown
   RunInfo info;
   RunCounts counts, target_counts;
   uint64_t burst_bits = 128;
   std::vector<std::string> scheme_names;  ///< in the order of the run's options
-  std::vector<FrameStatistics>
-      frames;  ///< complete frames in file order; schemes in the order of scheme_names
+  /// Complete frames in file order; schemes in the order of scheme_names.
+  std::vector<FrameStatistics> frames;
   /// Sums over the presented frames that are not warmup, in the order of scheme_names.
   std::vector<SchemeStatistics> totals;
   uint64_t measured_frames = 0;  ///< presented frames that are not warmup
   /// The same for targets (run_directory.h).
   std::vector<SchemeStatistics> target_totals;
   uint64_t measured_targets = 0;
-  /// Bytes of frames.csv and schemes.csv that hold these frames; rows that are not complete follow.
+  /// Bytes of frames.csv and schemes.csv that hold these frames. Incomplete rows follow them.
   uint64_t frames_bytes = 0, schemes_bytes = 0;
 
-  /// Of `frames`, those that are presented: the others are targets.
+  /// How many of `frames` are presented. The others are targets.
   uint64_t presented_frames() const {
     return static_cast<uint64_t>(
         std::count_if(frames.begin(), frames.end(),
@@ -57,17 +57,16 @@ struct RunEnd {
   std::string reason;
   std::optional<int> exit_status;
   std::optional<int> signal;
-  bool overrules = false;    ///< state and reason count, whatever the run itself has noted
-  std::string program, via;  ///< take the place of what run.json says, unless empty
+  bool overrules = false;                                    ///< use state and reason whatever run.json says
+  std::string program, via;                                  ///< replace those of run.json, unless empty
   std::vector<std::pair<std::string, std::string>> further;  ///< more string members for run.json
   std::vector<std::pair<std::string, uint64_t>> figures;     ///< more integer members for run.json
 };
 
-/// Closes a run that was read after its program had ended: cuts off a torn last row and the rows of an
-/// incomplete frame, and replaces run.json by one with totals over what is there. What the run itself has
-/// noted ("finished", "failed") stays, except that a signal overrules "finished", and `end.overrules` both.
-/// Frames that the program has presented and that left no row are counted as not captured.
-/// `record`, as read_run() gave it, becomes the run as it then is.
+/// Closes a run whose program has ended. Cuts off a torn last row and the rows of an incomplete frame, and
+/// replaces run.json by one with totals over the complete frames. Presented frames without a row count as not
+/// captured. The state in run.json stays if it is "failed", or "finished" and no signal ended the program;
+/// `end.overrules` replaces any state. `record` comes from read_run() and becomes the closed run.
 Result<void> close_run(const RunEnd& end, RunRecord& record);
 
 }  // namespace tilepress

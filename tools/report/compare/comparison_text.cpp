@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tilepress/statistics.h"
+#include "tilepress/csv_table.h"
 
 namespace tilepress {
 namespace {

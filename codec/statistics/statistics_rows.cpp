@@ -1,0 +1,127 @@
+// Statistics rows: the columns of frames.csv and schemes.csv.
+#include <algorithm>
+
+#include "tilepress/scheme.h"
+#include "tilepress/statistics_rows.h"
+
+namespace tilepress {
+namespace {
+
+using Frame = FrameStatistics;
+
+#define TP_MEMBER(path)    \
+  [](auto& row) -> auto& { \
+    return row.path;       \
+  }
+
+constexpr CsvColumn<Frame> kFormatColumn = {
+    "format", [](const Frame& frame, std::string& out) { out += traits(frame.format).name; },
+    [](std::string_view field, Frame& frame) {
+      const auto* found = std::ranges::find(kFormatTraits, field, &FormatTraits::name);
+      if (found == std::end(kFormatTraits)) return false;
+      frame.format = static_cast<PixelFormat>(found - std::begin(kFormatTraits));
+      return true;
+    }};
+
+constexpr CsvColumn<Frame> kFrameColumns[] = {
+    csv_column<Frame, &Frame::frame>("frame"),
+    csv_column<Frame, &Frame::surface>("surface"),
+    csv_column<Frame, &Frame::width>("width"),
+    csv_column<Frame, &Frame::height>("height"),
+    kFormatColumn,
+    csv_column<Frame, &Frame::warmup>("warmup"),
+    csv_column<Frame, &Frame::time_ns>("time_ns"),
+    csv_column<Frame, TP_MEMBER(metrics.unique_colors)>("unique_colors"),
+    csv_column<Frame, TP_MEMBER(metrics.entropy)>("entropy"),
+    csv_column<Frame, TP_MEMBER(metrics.pixel_change)>("pixel_change"),
+    csv_column<Frame, TP_MEMBER(metrics.color_change)>("color_change"),
+    csv_column<Frame, TP_MEMBER(metrics.fvc_coverage)>("fvc_coverage"),
+    csv_column<Frame, TP_MEMBER(metrics.fvc_relative_coverage)>("fvc_relative_coverage"),
+    csv_column<Frame, TP_MEMBER(metrics.top100_coverage)>("top100_coverage"),
+    csv_column<Frame, &Frame::readback_ns>("readback_ns"),
+    csv_column<Frame, &Frame::encode_ns>("encode_ns"),
+};
+
+constexpr CsvColumn<SchemeRow> kSchemeColumns[] = {
+    csv_column<SchemeRow, &SchemeRow::frame>("frame"),
+    csv_column<SchemeRow, &SchemeRow::surface>("surface"),
+    csv_column<SchemeRow, &SchemeRow::scheme>("scheme"),
+    csv_column<SchemeRow, &SchemeRow::warmup>("warmup"),
+    csv_column<SchemeRow, TP_MEMBER(figures.blocks)>("blocks"),
+    csv_column<SchemeRow, TP_MEMBER(figures.raw_bits)>("raw_bits"),
+    csv_column<SchemeRow, TP_MEMBER(figures.payload_bits)>("payload_bits"),
+    csv_column<SchemeRow, TP_MEMBER(figures.bursts)>("bursts"),
+    csv_column<SchemeRow, TP_MEMBER(figures.csb_bits)>("csb_bits"),
+    csv_column<SchemeRow, TP_MEMBER(figures.palette_bits)>("palette_bits"),
+    csv_figure<SchemeRow, [](const SchemeRow& row) { return row.figures.rate_payload(); }>("rate_payload"),
+    csv_figure<SchemeRow, [](const SchemeRow& row) { return row.figures.rate(); }>("rate"),
+    csv_column<SchemeRow, TP_MEMBER(figures.extra_bits)>("extra_bits", true),
+};
+
+constexpr CsvColumn<SchemeRow> kSchemeCheckColumns[] = {
+    csv_column<SchemeRow, TP_MEMBER(figures.checked_blocks)>("checked_blocks", true),
+    csv_column<SchemeRow, TP_MEMBER(figures.mismatched_blocks)>("mismatched_blocks", true),
+    csv_figure<SchemeRow, [](const SchemeRow& row) { return row.figures.rate_with_extra(); }>(
+        "rate_with_extra"),
+};
+
+#undef TP_MEMBER
+
+}  // namespace
+
+std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string csv_number(double value) {
+  std::string out;
+  append_csv(out, value);
+  return out;
+}
+
+std::span<const CsvColumn<FrameStatistics>> frame_columns() {
+  return kFrameColumns;
+}
+std::span<const CsvColumn<SchemeRow>> scheme_columns() {
+  return kSchemeColumns;
+}
+std::span<const CsvColumn<SchemeRow>> scheme_check_columns() {
+  return kSchemeCheckColumns;
+}
+
+std::string frames_csv_header() {
+  return csv_header(kFrameColumns);
+}
+
+std::string schemes_csv_header() {
+  std::string header;
+  append_csv_names(kSchemeColumns, header);
+  for (const SchemeInfo& info : scheme_registry())
+    for (const char* column : info.columns) (header += ',') += column;
+  return header += ',' + csv_header(kSchemeCheckColumns);
+}
+
+void append_frames_row(const FrameStatistics& frame, std::string& out) {
+  append_csv_row(kFrameColumns, frame, out);
+}
+
+void append_schemes_rows(const FrameStatistics& frame, const std::vector<std::string>& scheme_names,
+                         std::string& out) {
+  for (size_t i = 0; i < frame.schemes.size(); ++i) {
+    const SchemeRow row{frame.frame, frame.surface, scheme_names[i], frame.warmup, frame.schemes[i]};
+    append_csv_fields(kSchemeColumns, row, out);
+    const std::string_view name = row.scheme.substr(0, row.scheme.find(':'));
+    for (const SchemeInfo& info : scheme_registry())
+      for (size_t column = 0; column < info.columns.size(); ++column)
+        append_csv(out += ',', name == info.name ? row.figures.own[column] : 0);
+    append_csv_row(kSchemeCheckColumns, row, out += ',');
+  }
+}
+
+}  // namespace tilepress

@@ -1,0 +1,65 @@
+// CSV rows: the records of a CSV file as rows of a table, their fields found by the names in the header.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tilepress/csv_reader.h"
+#include "tilepress/csv_table.h"
+#include "tilepress/result.h"
+
+namespace tilepress {
+
+/// Walks over the records after the header. `text` must outlive this.
+class CsvRecords {
+ public:
+  explicit CsvRecords(std::string_view text) : reader_(text) { reader_.next(header_); }
+  /// Goes to the next complete record; false at the end.
+  bool next() { return reader_.next(fields_); }
+  /// First byte after the current record.
+  size_t offset() const { return reader_.offset(); }
+  /// The place of a column. Of two columns with one name the last counts.
+  std::optional<size_t> find(std::string_view name) const;
+  /// The current record's field at this place; null if the record is shorter.
+  const std::string* field(size_t place) const { return place < fields_.size() ? &fields_[place] : nullptr; }
+  /// "record N: name: reason", about the current record.
+  Error fault(std::string_view name, const std::string& reason) const;
+
+ private:
+  CsvReader reader_;
+  std::vector<std::string> header_, fields_;
+};
+
+/// Reads the columns of a table. `records` and `columns` must outlive this.
+template <class Row>
+class CsvRowReader {
+ public:
+  CsvRowReader(const CsvRecords& records, std::span<const CsvColumn<Row>> columns) : records_(records) {
+    for (const CsvColumn<Row>& column : columns)
+      if (column.read != nullptr) columns_.push_back({&column, records.find(column.name)});
+  }
+  /// Reads the current record. Text in `row` refers to the record until the next one.
+  Result<void> read(Row& row) const {
+    for (const auto& [column, place] : columns_) {
+      if (column->optional && !place) continue;
+      const std::string* field = place ? records_.field(*place) : nullptr;
+      if (field == nullptr) return records_.fault(column->name, "the field is missing");
+      if (column->optional && field->empty()) continue;
+      if (!column->read(*field, row)) return records_.fault(column->name, "cannot read '" + *field + "'");
+    }
+    return {};
+  }
+
+ private:
+  struct Placed {
+    const CsvColumn<Row>* column;
+    std::optional<size_t> place;
+  };
+  const CsvRecords& records_;
+  std::vector<Placed> columns_;
+};
+
+}  // namespace tilepress
