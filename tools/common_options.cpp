@@ -18,9 +18,11 @@ void set_or_throw(RunOptions& options, const RunOption& option, const std::strin
 CLI::Option* add_list(CLI::App& app, RunOptions& options, const RunOption& option, const std::string& help) {
   const auto set = [&options, &option](const std::vector<std::string>& values) {
     std::string list;
-    for (const std::string& value : values) list += (list.empty() ? "" : std::string(1, option.joint)) + value;
+    for (const std::string& value : values)
+      list += (list.empty() ? "" : std::string(1, option.joint)) + value;
     if (list.empty())
-      throw CLI::ValidationError("--" + std::string(option.name) + " '': must be " + std::string(option.range));
+      throw CLI::ValidationError("--" + std::string(option.name) + " '': must be " +
+                                 std::string(option.range));
     set_or_throw(options, option, list);
   };
   return app.add_option_function<std::vector<std::string>>(std::string(option.flags), set, help)
@@ -36,7 +38,8 @@ void add_run_option(CLI::App& app, RunOptions& options, std::string_view name, c
   const std::string flags(option.flags), text = help.empty() ? std::string(option.help) : help;
   const auto set = [&](const std::string& value) { set_or_throw(options, option, value); };
   if (option.metavar.empty())
-    app.add_flag_callback(flags, [=] { set("1"); }, text);
+    app.add_flag_callback(
+        flags, [=] { set("1"); }, text);
   else if (option.joint != 0)
     add_list(app, options, option, text)->type_name(std::string(option.metavar));
   else

@@ -11,8 +11,8 @@
 
 namespace tilepress {
 
-// The options write into `options`, `size` or `frames`, which must outlive the parsing by `app`. A bad value is
-// a CLI11 validation error: one line, exit status 2. An empty `help` stands for the text of the table.
+// The options write into `options`, `size` or `frames`, which must outlive the parsing by `app`. A bad value
+// is a CLI11 validation error: one line, exit status 2. An empty `help` stands for the text of the table.
 
 /// Adds one option of the table of run options. Precondition: the table has the option, with flags.
 void add_run_option(CLI::App& app, RunOptions& options, std::string_view name, const std::string& help = "");

@@ -7,9 +7,9 @@
 
 namespace tilepress {
 
-/// Opens a file close-on-exec. The number is `lowest` or more, where the process may have such a number, and
-/// never that of a standard stream. A program that has closed its standard output still writes to number 1.
-/// Returns -1 with errno if the file cannot be opened so. A file that O_EXCL has just made is then removed.
+/// Opens a file close-on-exec. The number is `lowest` or more where the limits of the process allow it, and
+/// never that of a standard stream: a program that has closed its standard output still writes to number 1.
+/// Returns -1 with errno on failure, and removes a file that O_EXCL has just made.
 int open_above_streams(const std::string& path, int flags, mode_t mode = 0666, int lowest = 3);
 
 /// Gives the calling thread a descriptor table of its own, without a descriptor in it. The program then

@@ -1,4 +1,4 @@
-// Frame pictures: PGM for heat maps, so that any image program and numpy read them; raw pixels for frames.
+// Frame pictures: heat maps as PGM, which every image program and numpy read; frames as raw pixels.
 #include "tilepress/frame_pictures.h"
 
 #include <sys/stat.h>
@@ -17,7 +17,7 @@ std::string frame_stem(const FrameStatistics& frame) {
   return std::to_string(frame.surface) + "-" + number;
 }
 
-/// A scheme's name without what folders and shells take amiss.
+/// A scheme's name without characters that are special in paths and shells.
 std::string file_part(const std::string& scheme) {
   std::string out;
   for (const char c : scheme) out += c == ':' || c == ',' || c == '/' ? '+' : c;

@@ -1,4 +1,4 @@
-// Frame set: the ranges of --frames.
+// Frame set: ranges that are sorted and do not touch.
 #include "tilepress/frame_set.h"
 
 #include <algorithm>
@@ -27,8 +27,7 @@ Result<FrameSet> FrameSet::parse(std::string_view text) {
     Range range{};
     if (!parse_number(first_text, range.first) || !parse_number(last_text, range.last))
       return Error{ErrorKind::kBadValue, "'" + std::string(part) + "' is not a frame or a range of frames"};
-    if (range.first > range.last)
-      return Error{ErrorKind::kBadValue, "reversed range " + std::string(part)};
+    if (range.first > range.last) return Error{ErrorKind::kBadValue, "reversed range " + std::string(part)};
     set.ranges_.push_back(range);
   }
   // Sorted and merged, so that contains() can search and text() is the shortest.

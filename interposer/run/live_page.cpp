@@ -94,7 +94,7 @@ void LiveWriter::update(const FrameStatistics& frame, const std::vector<SchemeSt
 bool LiveWriter::picture_wanted() {
   if (page_ == nullptr) return false;
   const uint64_t requests = page_->picture_requests.load(std::memory_order_relaxed);
-  if (requests == 0) return false;  // nobody ever asked
+  if (requests == 0) return false;  // no watcher ever asked
   const uint64_t now = clock_ns(CLOCK_MONOTONIC);
   if (requests != requests_seen_) {
     requests_seen_ = requests;
@@ -111,7 +111,7 @@ void LiveWriter::set_picture_error(int error) {
 
 void LiveWriter::close() {
   if (page_ == nullptr) return;
-  page_ = nullptr;  // stays mapped: a thread of the program may be about to count a frame in it
+  page_ = nullptr;  // stays mapped: a thread of the program may be about to count a frame there
   unlink(path_.c_str());
 }
 
@@ -144,8 +144,8 @@ bool LiveReader::read(LiveState& out) const {
 
 namespace {
 RunCounts counts_of(const LiveCounts& counts) {
-  return {counts.seen, counts.captured, counts.dropped, counts.skipped, counts.unsupported,
-          counts.not_captured};
+  return {counts.seen,    counts.captured,    counts.dropped,
+          counts.skipped, counts.unsupported, counts.not_captured};
 }
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Live picture: two slots in turn, so that a reader has the time of a whole period for its copy.
+// Live picture: the writer alternates between two slots, so that a reader has a whole period for its copy.
 #include "tilepress/live_picture.h"
 
 #include <sys/mman.h>
@@ -30,7 +30,7 @@ struct SlotLayout {
         words(1 + kHeadWords + pixel_words + plane_words * head.scheme_count) {}
 };
 
-/// A slot as it lies in the file. The sequence comes first.
+/// A slot in the file. The sequence comes first.
 struct Slot {
   uint64_t* words;
   Slot(LivePictureFile* file, uint64_t number)

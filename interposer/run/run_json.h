@@ -1,4 +1,4 @@
-// Run JSON: run.json as text, and back.
+// Run JSON: writes and reads run.json.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace tilepress {
 
 constexpr int kRunSchemaVersion = 1;
 
-/// All that run.json says.
+/// All that run.json holds.
 struct RunDocument {
   std::string state = "running";
   std::string reason;
@@ -33,11 +33,11 @@ std::string run_json_text(const RunDocument& document);
 /// Fills `record` from `text`. Members that `text` lacks stay as they are. Fails if `text` is no JSON object.
 Result<void> read_run_json(std::string_view text, RunRecord& record);
 
-/// `text` with state, reason, end, counts and totals replaced by those of `record`; a document of its own if
+/// Returns `text` with the state, counts and totals of `record`, and with `end`. Returns a new document if
 /// `text` is no JSON.
 std::string finished_run_json(std::string_view text, const RunRecord& record, const RunEnd& end);
 
-/// Now, in UTC, ISO 8601 to the second.
+/// The current time in UTC, ISO 8601, in seconds.
 std::string utc_now();
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Run lock: fcntl record locks, which every process that can open the file can test.
+// Run lock: fcntl record locks. Every process that can open the file can test them.
 #include "tilepress/run_lock.h"
 
 #include <fcntl.h>
@@ -32,7 +32,8 @@ bool is_locked(const std::string& path, off_t byte) {
 
 /// Grows with every row that the writer finishes.
 off_t rows_of(const std::string& path) {
-  struct stat frames {}, schemes {};
+  struct stat frames {
+  }, schemes{};
   stat((path + "/frames.csv").c_str(), &frames);
   stat((path + "/schemes.csv").c_str(), &schemes);
   return frames.st_size + schemes.st_size;

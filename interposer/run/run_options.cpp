@@ -25,8 +25,7 @@ Result<void> set_run_option(RunOptions& options, std::string_view name, std::str
 
 std::map<std::string, std::string> to_environment(const RunOptions& options) {
   std::map<std::string, std::string> out;
-  for (const RunOption& option : run_option_table())
-    out.emplace(option.variable, option.text.print(options));
+  for (const RunOption& option : run_option_table()) out.emplace(option.variable, option.text.print(options));
   return out;
 }
 

@@ -1,5 +1,5 @@
-// Sequenced words: a sequence lock over shared memory that another process reads, in terms that a thread
-// sanitizer understands (no fences, no plain accesses).
+// Sequenced words: a sequence lock over memory that another process reads. It has no fences and no plain
+// accesses, so that a thread sanitizer understands it.
 #pragma once
 
 #include <atomic>
@@ -8,19 +8,19 @@
 
 namespace tilepress {
 
-/// Stores `count` words. Release: whoever sees one of them also sees that the sequence was odd by then.
+/// Stores `count` words. Release: a reader that sees a new word also sees the odd sequence.
 inline void store_words(uint64_t* shared, const uint64_t* words, size_t count) {
   for (size_t i = 0; i < count; ++i)
     std::atomic_ref<uint64_t>(shared[i]).store(words[i], std::memory_order_release);
 }
 
-/// Loads `count` words. The memory may be mapped read-only: nothing is written.
+/// Loads `count` words. Works on memory that is mapped read-only.
 inline void load_words(const uint64_t* shared, uint64_t* words, size_t count) {
   for (size_t i = 0; i < count; ++i)
     words[i] = std::atomic_ref<uint64_t>(const_cast<uint64_t&>(shared[i])).load(std::memory_order_acquire);
 }
 
-/// Around the stores of the one writer. The sequence is odd in between.
+/// Surrounds the stores of the only writer. The sequence is odd meanwhile.
 class SequencedWrite {
  public:
   explicit SequencedWrite(std::atomic<uint64_t>& sequence) : sequence_(sequence) {
@@ -36,7 +36,7 @@ class SequencedWrite {
   std::atomic<uint64_t>& sequence_;
 };
 
-/// Around the loads of a reader: what was loaded is of one write if whole() says so afterwards.
+/// Surrounds the loads of a reader. If whole() is true afterwards, all loaded words are from one write.
 class SequencedRead {
  public:
   explicit SequencedRead(const std::atomic<uint64_t>& sequence)

@@ -1,5 +1,5 @@
-// Session mark: one line, "session pid namespace". The path of a session may differ between mount namespaces;
-// its name does not.
+// Session mark: one line, "session pid namespace". It has the name of the session, because the path can
+// differ between mount namespaces.
 #include "tilepress/session_mark.h"
 
 #include <fcntl.h>

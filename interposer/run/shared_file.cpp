@@ -1,4 +1,4 @@
-// Shared file: plain files in the run directory, so that who may read the run may watch it.
+// Shared file: plain files in the run directory, so that everyone who can read the run can watch it.
 #include "run/shared_file.h"
 
 #include <fcntl.h>
@@ -15,8 +15,7 @@ namespace tilepress {
 void* create_shared_file(const std::string& path, size_t bytes) {
   const int file = open_above_streams(path, O_RDWR | O_CREAT | O_EXCL, 0644);
   if (file < 0) return nullptr;
-  // posix_fallocate, not ftruncate: on a full disk a hole would end the program with SIGBUS at the first
-  // store.
+  // Not ftruncate: on a full disk, the first store into a hole would end the program with SIGBUS.
   int error = posix_fallocate(file, 0, static_cast<off_t>(bytes));
   void* memory = MAP_FAILED;
   if (error == 0) {

@@ -1,4 +1,4 @@
-// Shared file: a small file that a capture makes and maps, for others to map.
+// Shared file: a small file that a capture makes and maps, and that watchers map.
 #pragma once
 
 #include <cstddef>
@@ -6,12 +6,12 @@
 
 namespace tilepress {
 
-/// Makes a file of `bytes` zero bytes that was not there before and maps it. Null and errno on failure, and
-/// then no file is left. munmap() ends the mapping.
+/// Makes a new file of `bytes` zero bytes and maps it. Returns null with errno on failure, and leaves no
+/// file. munmap() ends the mapping.
 void* create_shared_file(const std::string& path, size_t bytes);
 
-/// Maps the whole of a file that is at least `least_bytes` long, to write as well if `writable`. Null on
-/// failure: errno, or 0 if the file is too short.
+/// Maps a whole file of at least `least_bytes`. Returns null with errno on failure; errno is 0 if the file is
+/// too short.
 void* map_shared_file(const std::string& path, size_t least_bytes, bool writable, size_t& bytes);
 
 }  // namespace tilepress

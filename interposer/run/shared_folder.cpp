@@ -1,4 +1,4 @@
-// Shared folder: mkdir is the test for a free name. A look before it would leave time for another process.
+// Shared folder: mkdir is the test for a free name. A test before mkdir would leave time for another process.
 #include "tilepress/shared_folder.h"
 
 #include <fcntl.h>
@@ -16,12 +16,12 @@ void share_like_parent(const std::string& folder, unsigned extra_mode) {
   struct stat parent {};
   const std::string parent_path = std::filesystem::path(folder).parent_path().string();
   if (stat(parent_path.c_str(), &parent) != 0) return;
-  // Never through a link: who may write the parent may have put one there.
+  // Never through a link: another user of the parent may have put a link there.
   const int file = open_above_streams(folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW);
   if (file < 0) return;
   if (fchown(file, parent.st_uid, parent.st_gid) != 0 &&
       fchown(file, static_cast<uid_t>(-1), parent.st_gid) != 0) {
-    // The folder stays ours. The mode then does what it can.
+    // The owner stays. The mode below still helps.
   }
   fchmod(file, (parent.st_mode & 01777) | extra_mode);
   close(file);

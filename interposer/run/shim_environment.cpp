@@ -1,5 +1,5 @@
-// Shim environment: finds out which driver libraries libglvnd would load, and puts one of ours in front of
-// each.
+// Shim environment: finds the driver libraries that libglvnd would load, and puts a library of the shim in
+// front of each.
 #include "tilepress/shim_environment.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace tilepress {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr size_t kEglShims = 4;  // our EGL vendor library and its copies
+constexpr size_t kEglShims = 4;  // the shim's EGL vendor library and its copies
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -31,7 +31,7 @@ std::vector<std::string> split_path(const std::string& text) {
   return parts;
 }
 
-/// The vendor files of libglvnd's libEGL, in its order.
+/// The vendor files of libglvnd's libEGL, in the order of libEGL.
 std::vector<std::string> egl_vendor_files() {
   std::vector<std::string> files = split_path(variable("__EGL_VENDOR_LIBRARY_FILENAMES"));
   if (!files.empty()) return files;
@@ -57,7 +57,7 @@ std::string library_of(const std::string& vendor_file) {
   return relative ? (fs::path(vendor_file).parent_path() / library).string() : library;
 }
 
-/// Names X of the libGLX_X.so.0 in the system's library folders, without the fallback for indirect rendering.
+/// The names X of libGLX_X.so.0 in the system's library folders, without those that are no driver.
 std::vector<std::string> glx_vendors() {
   std::vector<std::string> names;
   for (const char* folder :
@@ -75,9 +75,8 @@ std::vector<std::string> glx_vendors() {
   return names;
 }
 
-/// The GLX vendor that libglvnd's libGLX takes, as far as that is known here: the user's choice, or the only
-/// one installed if its EGL is what libEGL takes too. Of several, or with the driver of a graphics processor
-/// in folders of its own, the X server names one for each screen.
+/// The GLX vendor that libglvnd's libGLX takes: the user's choice, or the only installed vendor if libEGL
+/// uses the same driver. Empty if unknown: with several vendors, the X server chooses one for each screen.
 std::string glx_vendor(const std::string& wish, const std::vector<std::string>& installed,
                        const std::vector<std::string>& egl_files) {
   if (!wish.empty()) return wish;
@@ -112,8 +111,8 @@ Result<void> add_shim_environment(std::map<std::string, std::string>& environmen
   if (road != ShimRoad::kGlvnd) {
     const std::string present = variable("LD_PRELOAD");
     environment["LD_PRELOAD"] = present.empty() ? preload_library : preload_library + ":" + present;
-    // The address sanitizer's shared runtime refuses a process that has another library before it, without this
-    // flag. The preloaded library gives the flag too, unless the program has default options of its own.
+    // Without this flag, the shared runtime of the address sanitizer refuses a process with another library
+    // before it. The preloaded library sets the flag too, unless the program has its own default options.
     const std::string asan = variable("ASAN_OPTIONS");
     environment["ASAN_OPTIONS"] = "verify_asan_link_order=0" + (asan.empty() ? "" : ":" + asan);
     if (road == ShimRoad::kPreload) return {};
@@ -125,7 +124,7 @@ Result<void> add_shim_environment(std::map<std::string, std::string>& environmen
   const std::vector<std::string> glx_installed = glx_vendors();
   const std::string glx_wish = variable("__GLX_VENDOR_LIBRARY_NAME");
   const std::string glx = glx_vendor(glx_wish, glx_installed, files);
-  // Where there are several vendors the preloaded library does, as far as it can.
+  // With several vendors, kAuto uses the preloaded library alone.
   const bool certain = files.size() == 1 && glx_wish.empty() && (!glx.empty() || glx_installed.empty());
   if (road == ShimRoad::kAuto && (folder.empty() || !has_driver || !certain)) return {};
   if (folder.empty())
@@ -133,7 +132,7 @@ Result<void> add_shim_environment(std::map<std::string, std::string>& environmen
   if (!has_driver)
     return Error{ErrorKind::kSystem, "--via glvnd: no EGL vendor library is installed (libglvnd)"};
   std::string list;
-  std::set<std::string> drivers;  // libglvnd takes each once
+  std::set<std::string> drivers;  // libglvnd loads each once
   for (const std::string& file : files) {
     const std::string driver = library_of(file);
     if (!driver.empty() && !drivers.insert(driver).second) continue;

@@ -1,4 +1,4 @@
-// Frame pictures: heat maps and pixels of chosen frames, kept in the run directory.
+// Frame pictures: heat maps and pixels of chosen frames, in the run directory.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,17 @@
 
 namespace tilepress {
 
-/// Writes the pictures that a run's options ask for:
-///   heatmaps/<surface>-<frame>-<scheme>.pgm  a sample per block, its payload bits, 16 bits each, most
-///   significant
-///       byte first; the largest value is that of a raw block; a comment "# scheme <its full name>" follows
-///       the "P5"
-///   frames/<surface>-<frame>.rgba            pixels as write_raw_frame() gives them
-/// Frame numbers have six digits or more, so that names sort.
+/// Writes the pictures that a run's options name:
+///   heatmaps/<surface>-<frame>-<scheme>.pgm   one sample per block: its payload bits, 16 bits, most
+///                                             significant byte first. The maximum is the size of a raw
+///                                             block. The comment "# scheme <full name>" follows "P5".
+///   frames/<surface>-<frame>.rgba             the pixels, by write_raw_frame()
+/// Frame numbers have at least six digits, so that names sort.
 class FramePictures {
  public:
-  /// Pictures go below `run_path`. Folders are made with the first picture.
+  /// Pictures go below `run_path`. The first picture makes its folder.
   void open(const std::string& run_path, const RunOptions& options);
-  /// Where the engine is to note the blocks' bits of this frame, or null if they are not wanted.
+  /// Where the engine writes the bits of this frame's blocks; null if this frame has no heat map.
   BlockBits* bits_for(uint64_t frame);
   /// Writes the wanted pictures of `frame`, whose pixels `view` shows.
   Result<void> write(const FrameStatistics& frame, const SurfaceView& view);
@@ -36,8 +35,8 @@ class FramePictures {
   BlockBits bits_;
 };
 
-/// Writes a frame's pixels top row first, rows tight, as their canonical bytes (R,G,B,A for 8-bit channels,
-/// with A = 255 where the format has none; the native 2 or 4 bytes, little-endian, otherwise).
+/// Writes a frame's pixels, top row first, without gaps. A pixel with 8-bit channels is R,G,B,A; A = 255
+/// where the format has no alpha. Other pixels are their native 2 or 4 bytes, little-endian.
 Result<void> write_raw_frame(const std::string& path, const SurfaceView& view);
 
 }  // namespace tilepress

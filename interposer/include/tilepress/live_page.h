@@ -1,4 +1,4 @@
-// Live page: what a running capture tells others, in a small file that both sides map into memory.
+// Live page: the state of a running capture, in a small file that the capture and its watchers map.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@
 namespace tilepress {
 
 constexpr uint32_t kLiveVersion = 3;
-constexpr size_t kLiveSchemes = 16;        ///< schemes past these are not shown
+constexpr size_t kLiveSchemes = 16;        ///< further schemes are not shown
 constexpr size_t kLiveNameBytes = 64;      ///< with the closing zero
 constexpr const char* kLiveFile = "live";  ///< in the run directory, from the first frame until the run ends
 
@@ -23,18 +23,18 @@ struct LiveScheme {
   char name[kLiveNameBytes];
   uint64_t raw_bits, moved_bits;              ///< over all measured frames
   uint64_t frame_raw_bits, frame_moved_bits;  ///< of the last frame
-  uint64_t extra_bits, frame_extra_bits;      ///< further traffic, which moved_bits are without
+  uint64_t extra_bits, frame_extra_bits;      ///< further traffic, not in moved_bits
 };
 
-/// A snapshot of a capture. Plain numbers only: the file may be read by another build of another version.
+/// A snapshot of a capture. It has plain numbers only, because a watcher may be another build.
 struct LiveState {
   char program[kLiveNameBytes];
   int64_t pid;
   uint64_t seen, captured, dropped, skipped, unsupported, not_captured;
-  uint64_t queued, queue_depth;  ///< frames waiting for the worker, and how many may wait
+  uint64_t queued, queue_depth;  ///< frames that wait for the worker, and the limit
   uint64_t frame, surface;       ///< the last frame
   uint64_t width, height;
-  uint64_t time_ns;                 ///< when it was presented, since the run began
+  uint64_t time_ns;                 ///< when the program presented it, since the run began
   uint64_t readback_ns, encode_ns;  ///< of the last frame
   uint64_t readback_sum_ns, encode_sum_ns;
   double fvc_coverage, pixel_change;  ///< of the last frame
@@ -42,8 +42,8 @@ struct LiveState {
   LiveScheme schemes[kLiveSchemes];
 };
 
-/// What the program has presented, or turned away from, so far: raised by its own threads, so that the
-/// numbers are right even if the program and the capture are killed together.
+/// What the program has presented, or turned away from, so far. The program's threads raise these numbers, so
+/// that they are right even if a signal kills the program and the capture together.
 struct LiveCounts {
   std::atomic<uint64_t> seen, captured, dropped, skipped, unsupported, not_captured;
 };
@@ -54,14 +54,14 @@ struct LivePage {
   uint32_t version;
   uint32_t size;  ///< sizeof(LivePage)
   std::atomic<uint64_t> sequence;
-  std::atomic<uint64_t> picture_requests;  ///< raised by who wants pictures, again and again (LiveReader)
-  std::atomic<uint64_t> picture_error;     ///< errno of the last picture that could not be given, or 0
+  std::atomic<uint64_t> picture_requests;  ///< a LiveReader that wants pictures raises it regularly
+  std::atomic<uint64_t> picture_error;     ///< errno of the last picture that failed, or 0
   LiveCounts presented, targets;
   LiveState state;
 };
 static_assert(std::atomic<uint64_t>::is_always_lock_free && sizeof(LiveState) % sizeof(uint64_t) == 0);
 
-/// The capture's side. A page that cannot be made is no error: the run goes on without.
+/// The capture's side. A page that cannot be made is no error: the run continues without one.
 class LiveWriter {
  public:
   LiveWriter() = default;
@@ -71,15 +71,15 @@ class LiveWriter {
   void open(const std::string& run_path, const RunInfo& info, const RunOptions& options);
   /// Null without a page.
   LivePage* page() const { return page_; }
-  /// After each frame. `totals`: the run's sums, in the order of the schemes.
+  /// Call after each frame. `totals`: the run's sums, in the order of the schemes.
   void update(const FrameStatistics& frame, const std::vector<SchemeStatistics>& totals,
               const RunCounts& counts, uint64_t queued, uint64_t queue_depth);
   const LiveState& state() const { return state_; }
-  /// Whether somebody asked for pictures since the last frame or within the two seconds before: a watcher
-  /// that was killed asks no more, and nothing of it has to be undone. At most ten times a second.
+  /// Whether a watcher asked for pictures since the last frame or in the two seconds before. A watcher that
+  /// was killed stops asking, so nothing needs a cleanup. True at most ten times a second.
   bool picture_wanted();
   void set_picture_error(int error);
-  /// Ends the page: the file goes.
+  /// Removes the file.
   void close();
 
  private:
@@ -89,7 +89,8 @@ class LiveWriter {
   uint64_t requests_seen_ = 0, request_seen_ns_ = 0, picture_ns_ = 0;
 };
 
-/// The watcher's side: opened read-only, so that it cannot disturb the capture, unless it wants pictures.
+/// The watcher's side. It maps the page read-only, so that it cannot disturb the capture, unless it asks for
+/// pictures.
 class LiveReader {
  public:
   LiveReader() = default;
@@ -98,14 +99,15 @@ class LiveReader {
   ~LiveReader();
   /// Fails if the run has no page of this version.
   Result<void> open(const std::string& run_path, bool asks_for_pictures = false);
-  /// A consistent copy. False if none could be had (the writer died while writing).
+  /// Copies a consistent state. False if there is none, because the writer died while it wrote.
   bool read(LiveState& out) const;
-  /// Counts that the program itself has raised. Zeros without a page.
+  /// The counts that the program's threads have raised. Zeros without a page.
   RunCounts presented() const;
   RunCounts targets() const;
-  /// Asks for pictures (live_picture.h) for the next two seconds. Precondition: opened so.
+  /// Asks for pictures (live_picture.h) for the next two seconds. Precondition: open() with
+  /// `asks_for_pictures`.
   void ask_for_pictures();
-  /// errno of the last picture that the capture could not give, or 0.
+  /// errno of the last picture that the capture could not write, or 0.
   int picture_error() const;
 
  private:

@@ -1,5 +1,4 @@
-// Run directory: frames.csv, schemes.csv and run.json of one run (spec §10), written so that a kill loses
-// nothing.
+// Run directory: frames.csv, schemes.csv and run.json of one run (spec §10). A kill loses no finished frame.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +15,14 @@ namespace tilepress {
 
 class AppendFile;
 
-/// Surfaces that are framebuffer objects' images (--targets all) are numbered from here, those that are
-/// presented from 0: the rows of these are the same with and without.
+/// Images of framebuffer objects (--targets all) have surface numbers from here on. Presented surfaces have
+/// numbers from 0, so that --targets does not change their rows.
 constexpr uint32_t kFirstTargetSurface = 1'000'000;
 constexpr bool is_target(uint32_t surface) {
   return surface >= kFirstTargetSurface;
 }
 
-/// What run.json tells beside the totals.
+/// What run.json holds beside the totals.
 struct RunInfo {
   std::vector<std::string> command;  ///< argv of the captured program or of the tool
   std::string program;               ///< base name
@@ -33,26 +32,25 @@ struct RunInfo {
   std::vector<std::pair<std::string, std::string>> further;  ///< more string members
 };
 
-/// Of what is presented, or of the targets.
+/// Counts of presented frames, or of targets.
 struct RunCounts {
-  uint64_t seen = 0;          ///< frames presented, or targets that the program turned away from
+  uint64_t seen = 0;          ///< presented frames, or targets that the program finished
   uint64_t captured = 0;      ///< frames with rows
-  uint64_t dropped = 0;       ///< lost because the queue was full (--on-full drop)
-  uint64_t skipped = 0;       ///< not asked for (--frames, --every)
-  uint64_t unsupported = 0;   ///< in a format that is not modelled
+  uint64_t dropped = 0;       ///< dropped because the queue was full (--on-full drop)
+  uint64_t skipped = 0;       ///< left out by --frames and --every
+  uint64_t unsupported = 0;   ///< in a format that tilepress does not model
   uint64_t not_captured = 0;  ///< could not be read back
 };
 
-/// Writes one run. One write() per file and frame, O_APPEND: after a SIGKILL every finished frame's rows are
-/// there. schemes.csv goes before frames.csv, so a row in frames.csv means that the frame is complete.
-/// run.json is replaced atomically: at creation ("state": "running"), at most twice a second, and by
-/// finish(). Not thread-safe.
+/// Writes one run. Each frame is one write() per file, so that a SIGKILL loses no finished frame. The rows of
+/// schemes.csv come first: a row in frames.csv means that the frame is complete. run.json is replaced
+/// atomically at creation ("state": "running"), at most twice a second, and by finish(). Not thread-safe.
 class RunWriter {
  public:
   RunWriter();
   RunWriter(const RunWriter&) = delete;
   RunWriter& operator=(const RunWriter&) = delete;
-  ~RunWriter();  ///< closes the files; does not finish()
+  ~RunWriter();  ///< closes the files without finish()
 
   /// Creates `path` (parents too) and the three files. kExists: `path` already holds a run.
   Result<void> create(const std::string& path, const RunInfo& info, const RunOptions& options);
@@ -60,14 +58,14 @@ class RunWriter {
   /// May be called at any time; run.json follows within half a second or at finish().
   void set_counts(const RunCounts& counts, const RunCounts& targets = {});
   void set_info(const RunInfo& info);
-  /// The captured program is no more; only this writer still works on the run (run_lock.h).
+  /// The captured program has ended. Only this writer still works on the run (run_lock.h).
   void program_has_ended();
   /// state: "finished", or "failed" with the reason.
   Result<void> finish(const std::string& state, const std::string& reason);
 
   bool is_open() const;
   const std::string& path() const { return path_; }
-  /// Sums over the non-warmup frames that are presented, in the order of the schemes.
+  /// Sums over the presented frames that are not warmup, in the order of the schemes.
   const std::vector<SchemeStatistics>& totals() const { return totals_; }
   uint64_t measured_frames() const { return measured_frames_; }
 

@@ -1,4 +1,4 @@
-// Session mark: a small file by which a launcher knows the run folders of its own session.
+// Session mark: a small file that names the session of a run folder, so that a launcher finds its own runs.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ constexpr const char* kSessionMarkFile = "session";
 
 struct SessionMark {
   std::string session;         ///< name of the session folder
-  int64_t pid = 0;             ///< as the process itself knows it
-  uint64_t pid_namespace = 0;  ///< that of the process; 0 = unknown, without /proc
+  int64_t pid = 0;             ///< in the PID namespace of the process
+  uint64_t pid_namespace = 0;  ///< of the process; 0 = unknown, without /proc
 };
 
 /// The PID namespace of the calling process; 0 if unknown.
