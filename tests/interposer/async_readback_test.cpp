@@ -1,5 +1,5 @@
-// Async readback: frames that come through pixel buffers are the same frames: each once, in order, every
-// pixel, however the program goes on or ends.
+// Async readback: pixel buffers give the same frames. Each comes once, in order, with every pixel, however
+// the program continues or ends.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -16,7 +16,7 @@ std::map<std::string, std::string> asking_for(const char* readback) {
   return {{"TILEPRESS_READBACK", readback}, {"DISPLAY", own_display()}};
 }
 
-/// The presents that were read in `way`.
+/// Returns the presents that were read in `way`.
 size_t count_of(const CapturedRun& run, const std::string& way) {
   return static_cast<size_t>(std::count_if(run.presents.begin(), run.presents.end(),
                                            [&](const auto& row) { return row.at("readback") == way; }));
@@ -26,7 +26,7 @@ struct Sample {
   const char* name;
   std::vector<std::string> command;
   size_t frames;
-  size_t async;  ///< of them, through pixel buffers: not the first of a window at a size
+  size_t async;  ///< of them through pixel buffers; never the first frame of a window at a size
 };
 
 const Sample kSamples[] = {
@@ -41,7 +41,7 @@ const Sample kSamples[] = {
     {"DisplayTerminated", {TILEPRESS_EGL_SCENES, "terminate"}, 12, 12},
     {"LargeSurfaces", {TILEPRESS_EGL_SCENES, "large"}, 9, 9},
     {"ContextDestroyed", {TILEPRESS_EGL_SCENES, "destroyed"}, 1, 1},
-    // A context that is destroyed while current is the one its frames are read in.
+    // Frames of a context that is destroyed while current are read in that context.
     {"GlxContextDestroyed", {TILEPRESS_GLX_PRESENTS, "destroyed"}, 3, 0},
     {"FailedSwaps", {TILEPRESS_EGL_SCENES, "failures"}, 1, 1},
     {"Rgb565", {TILEPRESS_EGL_SCENES, "format", "5", "6", "5", "0", "0"}, 5, 5},
@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(Readback, AsyncKilled, ::testing::Values("term", "kill"
 
 TEST(Readback, OfAProgramThatPresentsNoMoreAllFramesCome) {
   ShimTest test;
-  // Killed only once the rows are there: nothing is written out at the end.
+  // The test kills the program only once the rows exist: nothing is written at the end.
   const ShimRun run = test.run({"sh", "-c",
                                 "\"$0\" \"$@\" & for i in $(seq 600); do"
                                 " [ \"$(cat \"$TILEPRESS_OUT\"/*/frames.csv 2>/dev/null | wc -l)\" = 6 ] &&"

@@ -1,4 +1,4 @@
-// Expected picture: the known picture as pixels, to compare captured frames with.
+// Expected picture: the pixels of the known picture, to compare captured frames with.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace tilepress::testing {
 
-/// R,G,B,A bytes, top row first. Without alpha every A is 255.
+/// Returns R,G,B,A bytes, top row first. Without alpha every A is 255.
 inline std::vector<uint8_t> expected_picture(unsigned frame, int width, int height, bool with_alpha) {
   known_box boxes[KNOWN_BOXES];
   known_picture(frame, width, height, boxes);

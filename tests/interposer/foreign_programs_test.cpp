@@ -1,4 +1,4 @@
-// Foreign programs: those of sanitizers and of another C library start, print and end as without the shim.
+// Foreign programs: programs of sanitizers and of another C library start, print and end as without the shim.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -13,7 +13,7 @@ std::string foreign(const std::string& name) {
   return std::string(TILEPRESS_FOREIGN_PROGRAMS) + "/" + name;
 }
 
-/// What the launcher sets; of it only what brings a preloaded library along.
+/// The part of the launcher's environment that a preloaded library needs.
 std::map<std::string, std::string> launcher_environment(const char* library = TILEPRESS_PRELOAD) {
   std::map<std::string, std::string> added;
   EXPECT_TRUE(add_shim_environment(added, ShimRoad::kPreload, library));
@@ -37,7 +37,7 @@ TEST_P(Sanitized, ThePictureIsCapturedAndTheProgramEndsAsEver) {
   const std::vector<std::vector<std::string>> commands = {
       {program, "link", "3", "32", "24"},
       {"sh", "-c", "\"$0\" \"$@\"; exit $?", program, "link", "3", "32", "24"},
-      // A script that sets options of its own.
+      // A script that replaces the options.
       {"sh", "-c", "ASAN_OPTIONS=verbosity=0 \"$0\" \"$@\"; exit $?", program, "link", "3", "32", "24"}};
   for (const auto& command : commands) {
     ShimTest test;
@@ -92,10 +92,9 @@ TEST(ForeignPrograms, AProgramOfMuslRunsUnharmed) {
 
 TEST(ForeignPrograms, AHelperOfMuslDoesNotDisturbTheCapture) {
   ShimTest test;
-  const ShimRun run =
-      test.run({"sh", "-c", "\"$0\" > /dev/null; [ $? = 7 ] || exit 1; exec \"$@\"", foreign("musl-hello"),
-                TILEPRESS_EGL_LINKED, "link", "3", "32", "24"},
-               launcher_environment());
+  const ShimRun run = test.run({"sh", "-c", "\"$0\" > /dev/null; [ $? = 7 ] || exit 1; exec \"$@\"",
+                                foreign("musl-hello"), TILEPRESS_EGL_LINKED, "link", "3", "32", "24"},
+                               launcher_environment());
   EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
   ASSERT_EQ(run.runs.size(), 1u) << run.log;
   EXPECT_EQ(run.runs[0].json_number("captured"), 3);

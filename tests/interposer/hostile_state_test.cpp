@@ -1,4 +1,5 @@
-// Hostile state: whatever state a program leaves set, what it presents is captured, and the state stays.
+// Hostile state: the shim captures what a program presents, whatever state the program leaves, and keeps the
+// state.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -13,7 +14,7 @@ namespace {
 struct Case {
   const char* api;
   std::map<std::string, std::string> environment;
-  unsigned least_frames;  ///< of states that the context has, below what Mesa 22.3 has
+  unsigned least_frames;  ///< the context has at least so many states; Mesa 22.3 has more
   bool with_alpha = true;
 };
 
@@ -32,7 +33,8 @@ std::vector<Case> cases() {
   };
 }
 
-/// The lines "frame 7 RED_SCALE" are taken out of `out`: names by frame. What is left is trouble.
+/// Takes the lines "frame 7 RED_SCALE" out of `out` and returns the names by frame. Any other line is a
+/// fault.
 std::vector<std::string> states_of(std::string& out) {
   std::istringstream lines(out);
   std::vector<std::string> states;
@@ -79,8 +81,8 @@ TEST(HostileState, ReachesNoPixelOfAFramebufferObject) {
   }
 }
 
-/// What the engine would set goes into the program's list instead: such a frame is read in a private context,
-/// or not.
+/// Setters would go into the program's display list. Such a frame is read in a private context, or not at
+/// all.
 TEST(HostileState, PutsNothingIntoADisplayList) {
   for (const char* readback : {"auto", "in-context"}) {
     ShimTest test;

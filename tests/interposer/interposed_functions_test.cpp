@@ -1,4 +1,5 @@
-// Interposed functions: programs and libraries that define functions of the C library meet the shim unharmed.
+// Interposed functions: programs and libraries that define functions of the C library run unharmed under the
+// shim.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -18,7 +19,7 @@ class HookLibrary : public ::testing::TestWithParam<const char*> {
   }
 };
 
-// Another library may define any function, and musl lacks many: so none is imported. What is left may be missing.
+// Another library may define any function, and musl lacks many. So no function is imported, and data is weak.
 TEST_P(HookLibrary, ImportsNoFunctionOfAnotherLibrary) {
   const ProcessResult listed = run_process({"nm", "-D", "--undefined-only", path()}, {});
   ASSERT_TRUE(listed.exited_with(0)) << listed.err;
@@ -35,11 +36,12 @@ TEST_P(HookLibrary, ImportsNoFunctionOfAnotherLibrary) {
 TEST_P(HookLibrary, RunsNothingWhenItIsLoaded) {
   const ProcessResult dynamic = run_process({"readelf", "-W", "-d", "-r", path()}, {});
   ASSERT_TRUE(dynamic.exited_with(0)) << dynamic.err;
-  for (const char* absent : {"(INIT)", "(FINI)", "(INIT_ARRAY)", "(FINI_ARRAY)", "IRELATIV", "(RELR)", "TEXTREL"})
+  for (const char* absent :
+       {"(INIT)", "(FINI)", "(INIT_ARRAY)", "(FINI_ARRAY)", "IRELATIV", "(RELR)", "TEXTREL"})
     EXPECT_EQ(dynamic.out.find(absent), std::string::npos) << absent;
 }
 
-/// What `library` must export.
+/// Returns the names that `library` must export.
 std::set<std::string> exports_of(const std::string& library) {
   if (library == "libEGL_tilepress.so.0") return {"__egl_Main"};
   if (library == "libGLX_tilepress.so.0") return {"__glx_Main"};

@@ -1,5 +1,4 @@
-// Late resize: a window whose size changes between drawing and presenting shows what it shows without the
-// shim.
+// Late resize: a window whose size changes between drawing and presenting looks as it does without the shim.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +32,7 @@ TEST_P(LateResize, ShowsWhatItShowsWithoutTheShim) {
   }
 }
 
-/// A frame that a trigger ends goes on in the same buffer.
+/// After a trigger the next frame continues in the same buffer.
 TEST_P(LateResize, ShowsWhatItShowsWithoutTheShimAfterATrigger) {
   const std::vector<std::string> command = {TILEPRESS_LATE_RESIZE, GetParam(), "finish"};
   const ProcessResult without = run_process(command, {{"LD_PRELOAD", ""}, {"DISPLAY", own_display()}});

@@ -1,4 +1,4 @@
-// Loader roads: however a program reaches its presenting call, every frame is captured once, pixel by pixel.
+// Loader roads: every way to a presenting call gives every frame once, with every pixel.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace tilepress::testing {
 namespace {
 
 constexpr int kFrames = 5;
-constexpr int kWidth = 67, kHeight = 45;  // not multiples of the block or of four bytes
+constexpr int kWidth = 67, kHeight = 45;  // not multiples of a block, nor of four bytes
 
 struct Program {
   const char* name;
@@ -49,7 +49,7 @@ ShimRun run_program(ShimTest& test, const Program& program) {
                   {{"DISPLAY", program.needs_x ? own_display() : ""}, {"SDL_VIDEODRIVER", "offscreen"}});
 }
 
-/// Every presented frame is in the one run, once, and those the program drew hold the known picture.
+/// Expects each presented frame once in the one run. The frames that the program drew hold the known picture.
 void expect_known_frames(const ShimTest& test, const ShimRun& run, const Program& program, const char* via) {
   const int frames = kFrames + program.toolkit_frames;
   EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;

@@ -1,4 +1,4 @@
-// Native formats: surfaces of other depths are read as they are, never widened.
+// Native formats: surfaces of other depths keep their pixels, which are never widened.
 #include <gtest/gtest.h>
 
 #include "expected_picture.h"
@@ -16,7 +16,7 @@ struct Case {
   bool opaque;
 };
 
-/// The known picture in the format: value v is drawn as the level v · (2^bits − 1) / 255, rounded down.
+/// Returns the known picture in the format: value v becomes the level v · (2^bits − 1) / 255, rounded down.
 std::vector<uint8_t> expected_native(unsigned frame, const Case& format) {
   const std::vector<uint8_t> rgba = expected_picture(frame, kWidth, kHeight, !format.opaque);
   std::vector<uint8_t> bytes;

@@ -1,4 +1,4 @@
-// OSMesa: programs that draw into memory and present nothing.
+// OSMesa: programs that draw into memory and have no presenting call.
 #include <gtest/gtest.h>
 
 #include "expected_picture.h"
@@ -13,7 +13,7 @@ std::vector<std::string> command_of(const char* road, const char* format, const 
   return {TILEPRESS_OSMESA, road, format, y_up, end, std::to_string(kFrames)};
 }
 
-/// The known picture in R5 G6 B5, value v as the level v · (2^bits − 1) / 255, rounded down.
+/// Returns the known picture in R5 G6 B5: value v becomes the level v · (2^bits − 1) / 255, rounded down.
 std::vector<uint8_t> in_565(const std::vector<uint8_t>& rgba) {
   std::vector<uint8_t> bytes;
   for (size_t pixel = 0; pixel < rgba.size(); pixel += 4) {

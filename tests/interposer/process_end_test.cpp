@@ -1,4 +1,4 @@
-// Process end: however a program ends, its run has the rows of all frames, or says how many are missing.
+// Process end: however a program ends, its run has the rows of all frames, or counts the missing ones.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -12,7 +12,7 @@
 namespace tilepress::testing {
 namespace {
 
-/// Presents `frames` frames, ends in `way`, with `wrapper` in front of the command.
+/// Runs a program that presents `frames` frames and ends in `way`. `wrapper` stands before the command.
 ShimRun end_in(ShimTest& test, const std::string& way, int frames, std::vector<std::string> wrapper = {},
                std::map<std::string, std::string> environment = {}) {
   wrapper.insert(wrapper.end(), {TILEPRESS_PROCESS_END, std::to_string(frames), way});
@@ -27,7 +27,7 @@ void expect_whole(const ShimRun& run, size_t frames, const std::string& what) {
   EXPECT_EQ(run.runs[0].json_number("captured"), static_cast<int64_t>(frames)) << what;
 }
 
-/// True where the shim could not have its task: a sandbox around the tests, for instance.
+/// Returns true where the shim can have no task, for instance in a sandbox around the tests.
 bool on_a_thread(const ShimRun& run) {
   return run.log.find("compressed on a thread") != std::string::npos;
 }
@@ -61,7 +61,7 @@ TEST_P(EndWithoutExit, BySignalLosesNoFrameEither) {
 }
 INSTANTIATE_TEST_SUITE_P(ProcessEnd, EndWithoutExit, ::testing::Values(Road::kPreload, Road::kGlvnd));
 
-// Mesa frees what glReadPixels needs in an exit handler that it registers at the first read.
+// At the first read Mesa registers an exit handler that frees what glReadPixels needs.
 TEST(ProcessEnd, FramesPresentedByExitHandlersAndDestructorsAreCountedAndNotRead) {
   for (const char* way : {"handler", "destructor"}) {
     ShimTest test;
@@ -85,7 +85,7 @@ TEST(ProcessEnd, TheProgramMayChangeItsUserAndHasNoStrangeChild) {
   }
 }
 
-// What the threads of the program have counted lies in a shared page, and the folder is there in time.
+// The program's threads count in a shared page, and the run folder exists before the first present.
 TEST(ProcessEnd, WithoutATaskTheFramesThatAreLostAreCounted) {
   for (const char* way : {"raw", "kill", "exec"}) {
     ShimTest test;

@@ -1,5 +1,5 @@
-// Read drawable: what is presented is captured, also where the context reads from another surface; and that
-// one, and all that the program can ask, is as without the shim.
+// Read drawable: the presented surface is captured, also where the context reads from another one. That one,
+// and everything the program can query, is as without the shim.
 #include <gtest/gtest.h>
 
 #include "expected_picture.h"
@@ -10,7 +10,7 @@ namespace {
 
 using Environment = std::map<std::string, std::string>;
 
-/// The first surface has three frames with the pictures from `first` on, or none if `size` is 0.
+/// Expects three frames of the first surface with the pictures from `first` on, or none if `size` is 0.
 void expect_frames(Road road, const char* api, const char* scene, Environment environment, unsigned step,
                    unsigned first, int width, int height) {
   SCOPED_TRACE(std::string(api) + " " + scene + " " + environment["TILEPRESS_READBACK"]);
@@ -66,7 +66,7 @@ TEST(ReadDrawable, IsCapturedBeforeGlReadPixelsAndTheOtherBeforeGlFinish) {
   expect_presented(Road::kPreload, "glx", "front", {{"TILEPRESS_TRIGGER", "finish"}});
 }
 
-/// Whoever makes another surface current then cannot come back: no frame, but no harm.
+/// The shim could not come back after making another surface current. It takes no frame and does no harm.
 TEST(ReadDrawable, ThatIsDestroyedStaysCurrent) {
   for (const char* api : {"glx", "glxwindow", "gl", "es2", "x-es3"})
     expect_frames(Road::kPreload, api, "destroyed", {}, 0, 0, 0, 0);

@@ -1,4 +1,4 @@
-// Real programs: Debian's own GL programs, unmodified, as they come.
+// Real programs: Debian's own GL programs, unmodified.
 #include <gtest/gtest.h>
 
 #include "shim_process.h"
@@ -34,7 +34,7 @@ TEST(RealPrograms, Glmark2FindsGlxByDlsym) {
   expect_all_frames(run, "320", "240");
 }
 
-// Ends the program as soon as 20 frames are written, however long a loaded machine takes for them.
+// Ends the program once 20 frames are written, however long a loaded machine takes.
 constexpr const char* kEndAfterTwentyFrames =
     "\"$0\" > /dev/null & program=$!; i=0\n"
     "while [ $i -lt 800 ] && [ $(cat \"$TILEPRESS_OUT\"/*/frames.csv 2> /dev/null | wc -l) -lt 21 ]; do\n"

@@ -1,4 +1,4 @@
-// Shim process: fork, exec, read two pipes to their ends, read the run folders.
+// Shim process: starts the program, reads two pipes to their ends, and reads the run folders.
 #include "shim_process.h"
 
 #include <fcntl.h>
@@ -94,7 +94,7 @@ ProcessResult run_process(const std::vector<std::string>& command,
       value.empty() ? unsetenv(name.c_str()) : setenv(name.c_str(), value.c_str(), 1);
     dup2(out[1], STDOUT_FILENO);
     dup2(err[1], STDERR_FILENO);
-    alarm(100);  // a program that hangs ends, and with it the test
+    alarm(100);  // ends a program that hangs, and the test with it
     execvp(arguments[0], arguments.data());
     _exit(127);
   }
@@ -209,9 +209,9 @@ ShimRun soak_windows(const char* api, std::map<std::string, std::string> environ
                    &early_kib, &early[0], &early[1], &late_kib, &late[0], &late[1], &texture),
             7)
       << run.process.out;
-  // 320 windows and 1280 frames lie between: a frame lost of each window (8 KiB at least) would be 2.5 MiB, a
-  // pixel buffer of each frame 10 MiB, a context of each window (more than 100 KiB) 32 MiB. After the first
-  // 80 the shim knows as many windows as it ever does.
+  // 320 windows and 1280 frames lie between the two. Leaking one frame of each window (8 KiB at least) would
+  // add 2.5 MiB, a pixel buffer of each frame 10 MiB, a context of each window (more than 100 KiB) 32 MiB.
+  // After the first 80 windows the shim holds as many as it ever does.
   EXPECT_LT(late_kib - early_kib, 2000) << run.process.out;
   EXPECT_EQ(late[0], early[0]) << run.process.out;
   EXPECT_EQ(late[1], early[1]) << run.process.out;

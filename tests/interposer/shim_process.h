@@ -1,4 +1,4 @@
-// Shim process: runs a program with or without the preloaded shim and collects everything it leaves.
+// Shim process: runs a program with or without the preloaded shim and collects what it leaves.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tilepress::testing {
 
-/// A folder of its own that goes when the test ends.
+/// A temporary folder, removed when the test ends.
 class ScratchFolder {
  public:
   ScratchFolder();
@@ -21,18 +21,18 @@ class ScratchFolder {
 };
 
 struct ProcessResult {
-  int status = -1;  ///< as waitpid gives it
+  int status = -1;  ///< as waitpid returns it
   std::string out, err;
   bool exited_with(int code) const;
   bool killed_by(int signal) const;
 };
 
-/// Runs `command`; `environment` adds to the test's own, an empty value removes the variable.
+/// Runs `command`. `environment` adds to the test's own; an empty value removes the variable.
 ProcessResult run_process(const std::vector<std::string>& command,
                           const std::map<std::string, std::string>& environment);
 
-/// An X server of the test's own, on a display number the server chooses. Started at the first call, ended
-/// with the test program. Empty if it does not start.
+/// Returns the display of an X server of the test's own, or "" if it does not start. The first call starts
+/// the server; it ends with the test program.
 const std::string& own_display();
 
 /// One run folder that the shim has written.
@@ -41,11 +41,12 @@ struct CapturedRun {
   std::vector<std::map<std::string, std::string>> frames, schemes;  ///< rows by column name
   std::vector<std::map<std::string, std::string>> presents, surfaces;
   std::string json;
-  std::string json_text(const std::string& key) const;  ///< of a string member, at any depth; first found
+  std::string json_text(
+      const std::string& key) const;  ///< the first string member of this name, at any depth
   int64_t json_number(const std::string& key) const;
 };
 
-/// A program under the shim: every scheme that is quick, dumps on.
+/// Runs programs under the shim with the quick schemes and dumped frames.
 struct ShimRun {
   ProcessResult process;
   std::vector<CapturedRun> runs;  ///< by name
@@ -53,14 +54,14 @@ struct ShimRun {
   std::string log;
 };
 
-/// Ways for the shim to get into a program.
+/// The shim's ways into a program.
 enum class Road { kPreload, kGlvnd, kBoth };
 
 class ShimTest {
  public:
   explicit ShimTest(Road road = Road::kPreload) : road_(road) {}
   ShimRun run(const std::vector<std::string>& command, std::map<std::string, std::string> environment = {});
-  /// Bytes of a dumped frame; empty if there is none.
+  /// Returns the bytes of a dumped frame, or nothing if there is none.
   std::vector<uint8_t> dump(uint32_t surface, uint64_t frame) const;
 
  private:
@@ -68,7 +69,7 @@ class ShimTest {
   ScratchFolder folder_;
 };
 
-/// 400 windows, each resized, of four frames each, by "egl" or "glx": expects that nothing of them is left.
+/// Makes 400 windows by "egl" or "glx", resizes each, presents four frames of each, and expects no leak.
 ShimRun soak_windows(const char* api, std::map<std::string, std::string> environment);
 
 }  // namespace tilepress::testing

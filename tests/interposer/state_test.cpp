@@ -1,4 +1,4 @@
-// State: after a swap under the shim, GL and EGL state and errors are what they are without it.
+// State: after a swap under the shim, GL and EGL state and errors are the same as without it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ TEST_P(WholeState, IsAsWithoutTheShim) {
     EXPECT_EQ(test.dump(0, frame), expected_picture(frame, 33, 21, true)) << "frame " << frame;
 }
 
-/// Framebuffer objects are read in the program's own context, with all that it has set.
+/// Framebuffer objects are read in the program's context, with all state that the program has set.
 TEST_P(WholeState, IsAsWithoutTheShimWhereFramebufferObjectsAreRead) {
   const std::vector<std::string> command = {TILEPRESS_STATE_SNAPSHOT, GetParam().api, "finish"};
   const ProcessResult without = run_process(command, {{"LD_PRELOAD", ""}});
@@ -54,8 +54,8 @@ TEST_P(WholeState, IsAsWithoutTheShimWhereFramebufferObjectsAreRead) {
       << std::string(difference.second, std::find(difference.second, with.process.out.end(), '\n'));
   ASSERT_EQ(with.runs.size(), 1u) << with.log;
   const bool sized = std::string(GetParam().readback) != "in-context" || std::string(GetParam().api) == "gl";
-  // Three swaps and three times glFinish, the first on the framebuffer object; and that object as a target.
-  // OpenGL ES tells the size of a texture only in a private context.
+  // Three swaps and three calls of glFinish, the first on the framebuffer object, which is also a target.
+  // With OpenGL ES the shim queries a texture's size in a private context.
   EXPECT_EQ(with.runs[0].frames.size(), sized ? 7u : 5u) << with.log;
   EXPECT_EQ(with.runs[0].json_number("seen"), 6);
 }

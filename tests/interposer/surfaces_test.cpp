@@ -1,4 +1,4 @@
-// Surfaces: several windows, threads and sizes, each a surface of its own with its own frames, all pixels
+// Surfaces: several windows, threads and sizes. Each is a surface with its own frames, and all pixels are
 // right.
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ ShimRun run_scene(ShimTest& test, std::vector<std::string> arguments,
   return test.run(arguments, std::move(environment));
 }
 
-/// Surface `surface` has exactly frames 0 … frames-1 of the size, each with the known picture.
+/// Expects exactly the frames 0 … frames-1 of `surface` at this size, each with the known picture.
 void expect_surface(const ShimTest& test, const CapturedRun& run, uint32_t surface, unsigned frames,
                     int width, int height, bool with_alpha = true) {
   std::vector<std::string> found;
@@ -63,7 +63,7 @@ TEST(Surfaces, ASurfaceMadeAgainIsANewSurface) {
     EXPECT_TRUE(run.process.exited_with(0)) << scene;
     ASSERT_EQ(run.runs.size(), 1u);
     EXPECT_EQ(run.runs[0].frames.size(), 12u) << scene << run.log;
-    if (std::string(scene) == "terminate") continue;  // the handles are the driver's to choose
+    if (std::string(scene) == "terminate") continue;  // the driver chooses the handles
     for (uint32_t surface = 0; surface < 3; ++surface) expect_surface(test, run.runs[0], surface, 4, 32, 32);
   }
 }
@@ -96,7 +96,7 @@ TEST(Surfaces, DamageRectanglesAreRecordedAndRefusedPresentsAreNoFrames) {
   EXPECT_EQ(run.runs[0].presents[2].at("damage"), "1 2 3 4;50 6 7 8");
 }
 
-/// Runs glx_presents with and without the shim: the same output, and three known frames.
+/// Runs glx_presents with and without the shim. Expects the same output, and three known frames.
 ShimRun run_glx_presents(ShimTest& test, const char* mode,
                          std::map<std::string, std::string> environment = {}) {
   environment["DISPLAY"] = own_display();
@@ -130,13 +130,13 @@ TEST_P(GlxPresents, SwapBuffersMscIsAPresentUnlessItIsRefused) {
   EXPECT_EQ(run.runs[0].json_number("seen"), 3);
 }
 
-// Making another context current would be the end of it: the frames are read in the context itself.
+// The context ends when another becomes current. So its frames are read in the context itself.
 TEST_P(GlxPresents, AContextDestroyedWhileCurrentLivesOn) {
   ShimTest test(GetParam());
   run_glx_presents(test, "destroyed");
 }
 
-// A driver may ask the X server about contexts, for which one that is destroyed is an error.
+// A driver may query contexts from the X server, where a destroyed one is an error.
 TEST(Surfaces, AContextDestroyedWhileCurrentIsNotAskedAbout) {
   ShimTest test;
   run_glx_presents(
@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, GlxPresents, ::testing::Values(Road::kPreload
                                                                : "Both";
                          });
 
-/// What three frames of `bytes` bytes hold that the program has read and printed itself.
+/// Returns the three frames of `bytes` bytes that the program has read and printed itself.
 void expect_printed_frames(const ShimTest& test, const ShimRun& run, size_t bytes) {
   ASSERT_EQ(run.runs.size(), 1u) << run.log;
   EXPECT_EQ(run.runs[0].frames.size(), 3u) << run.log;
@@ -168,8 +168,8 @@ void expect_printed_frames(const ShimTest& test, const ShimRun& run, size_t byte
   }
 }
 
-/// The reds of the first frame that the program has printed: of the triangle 230 (0.9), encoded 243; where
-/// one, two or three of four samples are covered 58, 115, 173.
+/// Returns the reds of the first printed frame. The triangle has 230 (0.9), or 243 if encoded. Pixels with
+/// one, two or three of four samples covered have 58, 115 and 173.
 std::set<uint8_t> printed_reds(const ShimRun& run, size_t bytes) {
   std::set<uint8_t> reds;
   for (size_t pixel = 0; pixel < bytes && pixel < run.process.out.size(); pixel += 4)
@@ -229,7 +229,7 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, PrintedFrames,
                                                                : "Both";
                          });
 
-/// Windows presented while they are not current on the calling thread.
+/// Windows that are presented while they are not current on the calling thread.
 class IdleDrawables : public ::testing::TestWithParam<Road> {
  protected:
   ShimRun run(const char* mode) {
@@ -285,7 +285,7 @@ TEST_P(IdleDrawables, OfAnotherThreadAreCountedAsNotCaptured) {
   EXPECT_EQ(captured.log, "tilepress: not captured: another thread has the drawable current\n");
 }
 
-// Mesa sends such a present to the X server, which refuses it: the program's own error, and no other.
+// Mesa sends such a present to the X server, which refuses it. The program sees that error and no other.
 TEST_P(IdleDrawables, OfPlainWindowsHaveNoBuffers) {
   const ShimRun captured = run("plain");
   ASSERT_EQ(captured.runs.size(), 1u);

@@ -1,5 +1,5 @@
-// Targets: with --targets all, each image of the program's framebuffers is a surface of its own, captured
-// when the program turns away from it.
+// Targets: with --targets all, each image of the program's framebuffers is a surface, captured when the
+// program turns away from it.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -29,7 +29,7 @@ ShimRun run_scene(ShimTest& test, const char* api, const char* scene, Road road)
   return run;
 }
 
-/// The surface has exactly these frames of the known picture, in this order.
+/// Expects exactly these frames of the known picture, in this order.
 void expect_surface(const ShimTest& test, const ShimRun& run, uint32_t surface,
                     std::vector<unsigned> pictures, int width, int height) {
   ASSERT_EQ(run.runs.size(), 1u) << run.log;
@@ -72,7 +72,7 @@ TEST_P(Targets, OneTextureIsOneSurfaceBesideTheWindow) {
   expect(captured, 0, {0, 1, 2, 3}, 33, 21);
   ASSERT_EQ(captured.runs.size(), 1u);
   EXPECT_EQ(captured.runs[0].json_number("seen"), kFrames);
-  EXPECT_EQ(captured.runs[0].json_number("measured_frames"), kFrames - 1);  // of what is presented
+  EXPECT_EQ(captured.runs[0].json_number("measured_frames"), kFrames - 1);  // presented frames
 }
 
 TEST_P(Targets, EachColourAttachmentIsASurfaceLeftWhenItIsNoDrawBufferAnyMore) {
@@ -131,7 +131,7 @@ TEST(TargetFormats, FloatImagesAreCountedAsUnsupported) {
   ShimTest test;
   const ShimRun run = run_scene(test, "es3", "formats", Road::kPreload);
   EXPECT_EQ(run.log, "tilepress: surface 1000000: texture 2: unsupported format RGBA16F\n");
-  // The last "unsupported" of run.json is the targets'.
+  // The last "unsupported" of run.json belongs to the targets.
   const std::string& json = run.runs.at(0).json;
   EXPECT_NE(json.find("\"unsupported\": 4", json.find("\"targets\": {")), std::string::npos) << json;
 }
@@ -153,7 +153,7 @@ TEST_P(MultisampledTargets, AreWhatTheProgramItselfResolvesThemTo) {
                                "texture 3 layer 1 resolved"}) {
       const auto own = run.process.out.begin() + static_cast<std::ptrdiff_t>(kBytes * at++);
       if (surface_of.count(origin) == 0) {
-        // Mesa 22 does not tell the layer: the frames of that one are counted as not captured.
+        // Mesa 22 has no query for the layer: its frames count as not captured.
         EXPECT_STREQ(origin, "texture 3 layer 1 resolved");
         EXPECT_NE(run.log.find("texture 3 resolved: the driver does not tell which layer"), std::string::npos)
             << run.log;
@@ -193,7 +193,8 @@ TEST(TargetFormats, EncodedValuesAreReadAsTheyAreAndNamed) {
   ShimTest test;
   const ShimRun run = run_scene(test, "es3", "formats", Road::kPreload);
   ASSERT_EQ(run.runs.size(), 1u);
-  const std::vector<uint8_t> own(run.process.out.begin(), run.process.out.end());  // as the program reads it
+  const std::vector<uint8_t> own(run.process.out.begin(),
+                                 run.process.out.end());  // as the program reads them
   EXPECT_EQ(test.dump(kFirst + 1, 0), own);
   EXPECT_NE(own, expected_picture(0, 40, 24, true)) << "not encoded: the test proves nothing";
   std::map<std::string, std::string> spaces;

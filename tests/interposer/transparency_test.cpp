@@ -1,4 +1,4 @@
-// Transparency: programs cannot tell that the shim is there, and however they end, their frames are kept.
+// Transparency: programs cannot see the shim, and however they end, their frames are kept.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ TEST(Transparency, LookupsGiveWhatTheyGiveWithoutTheShim) {
   EXPECT_TRUE(without.exited_with(5));
   EXPECT_TRUE(with.exited_with(5));
   EXPECT_NE(without.out.find("egl eglSwapBuffers: found, no error"), std::string::npos) << without.out;
-  // The first library answers 10 + what its own lookup of the next definition finds, which is 2.
+  // The first library returns 10 + the result of the next definition, which is 2.
   EXPECT_NE(without.out.find("next of a library: 12"), std::string::npos) << without.out;
   EXPECT_EQ(with.out, without.out);
   EXPECT_EQ(with.err, without.err);
@@ -70,7 +70,7 @@ TEST(Transparency, AnUnwritableOutputFolderDoesNotHarmTheProgram) {
   EXPECT_NE(run.log.find("tilepress: /proc/nowhere"), std::string::npos) << run.log;
 }
 
-/// `script` runs a program that presents 40 frames as "$0" "$@", in circumstances of its own.
+/// Runs `script`, which starts a program that presents 40 frames as "$0" "$@".
 ShimRun run_in(ShimTest& test, const char* script, std::map<std::string, std::string> environment = {}) {
   return test.run({"sh", "-c", script, TILEPRESS_EGL_OPENED, "local", "40", "96", "80"},
                   std::move(environment));
@@ -94,7 +94,7 @@ TEST(Transparency, ClosedStandardStreamsAreNotTakenForTheShimsFiles) {
   for (const auto& row : run.runs[0].frames) EXPECT_EQ(row.count("top100_coverage"), 1u);
 }
 
-// 40 frames' rows are longer than a kilobyte, the files' limit (which sends a signal, too).
+// The rows of 40 frames exceed the file limit of one kilobyte. Exceeding it also sends a signal.
 TEST(Transparency, FilesThatMayNotGrowEndTheRunNotTheProgram) {
   ShimTest test;
   const ShimRun run = run_in(test, "ulimit -f 2; exec \"$0\" \"$@\"", {{"TILEPRESS_DUMP", ""}});
@@ -197,7 +197,7 @@ TEST(Transparency, TheGlLibraryMayBeClosedAndOpenedAgain) {
 TEST(Transparency, AForkedChildThatPresentsHasARunOfItsOwn) {
   for (const char* end : {"fork", "fork-after"}) {
     ShimTest test;
-    // The driver's own threads do not survive a fork: it must draw in the calling thread.
+    // The driver's threads do not survive a fork, so the driver must draw in the calling thread.
     const ShimRun run =
         test.run({TILEPRESS_EGL_OPENED, "local", "6", "32", "24", end}, {{"LP_NUM_THREADS", "0"}});
     EXPECT_TRUE(run.process.exited_with(0));
@@ -221,7 +221,7 @@ TEST(Transparency, SurfacesAndContextsMadeAgainAndAgainLeakNothing) {
                    &early_descriptors, &late_kib, &late_descriptors),
             4)
       << run.process.out;
-  // Ninety sets of surface, context and engine lie between the two: a leak of one frame (11 KiB at least) in
+  // Ninety sets of surface, context and engine lie between the two. A leak of one frame (11 KiB at least) in
   // each of the 900, or of one context (more than 100 KiB) in each set, would show.
   EXPECT_LT(late_kib - early_kib, 6000) << run.process.out;
   EXPECT_EQ(late_descriptors, early_descriptors);

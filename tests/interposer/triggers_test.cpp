@@ -1,5 +1,4 @@
-// Triggers: headless programs, whose frames end with a GL call and are taken of the framebuffer that is
-// bound.
+// Triggers: headless programs, whose frames end with a GL call and come from the bound framebuffer.
 #include <gtest/gtest.h>
 
 #include "expected_picture.h"

@@ -1,4 +1,4 @@
-// Vendors: where libglvnd knows several EGL vendors, each is passed on, in the user's order.
+// Vendors: if libglvnd knows several EGL vendors, the shim serves each, in the user's order.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-/* early_lookup: a library that looks symbols up while the dynamic linker relocates it, before the libraries that
-   were loaded earlier. Built with -fno-plt, which has the address of dlsym at hand by then. */
+/* early_lookup: a library that looks symbols up while the dynamic linker relocates it. Libraries loaded earlier,
+   the shim too, are not relocated yet. -fno-plt makes the address of dlsym available by then. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stddef.h>

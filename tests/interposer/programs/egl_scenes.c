@@ -45,7 +45,7 @@ static void alternate(void) {
   }
 }
 
-/* A surface that is destroyed and made again, the same size: every time a new surface. */
+/* A surface that is destroyed and made again at the same size: a new surface each time. */
 static void recreate(void) {
   EGLConfig config = exact_config(display, kRgba8);
   EGLContext context = make_context(display, config, 2);
@@ -71,7 +71,7 @@ static void terminate(void) {
   }
 }
 
-/* A context that is destroyed while it is current: it lives on until another is made current. */
+/* A context that is destroyed while current. It lives on until another becomes current. */
 static void destroyed(void) {
   EGLConfig config = exact_config(display, kRgba8);
   EGLSurface surface = make_pbuffer(display, config, 32, 32);
@@ -88,7 +88,7 @@ static void destroyed(void) {
          eglGetCurrentContext() == context);
 }
 
-/* Swaps that fail: of a surface that is not current, and without a context. Then one that succeeds. */
+/* Swaps that fail: of a surface that is not current, and without a context. Then a swap that succeeds. */
 static void failures(void) {
   EGLConfig config = exact_config(display, kRgba8);
   EGLSurface surface = make_pbuffer(display, config, 32, 32), other = make_pbuffer(display, config, 32, 32);
@@ -118,7 +118,7 @@ static void format(char** bits) {
   }
 }
 
-/* Frames that the program reads and prints itself: a multisampled surface, one whose values are encoded. */
+/* Frames that the program reads and prints itself: a multisampled surface, and one with encoded values. */
 static void printed(EGLSurface surface, EGLContext context, void (*print)(int, int)) {
   if (surface == EGL_NO_SURFACE || !eglMakeCurrent(display, surface, surface, context)) exit(77);
   for (unsigned frame = 0; frame < 3; ++frame) {
@@ -141,7 +141,7 @@ static void srgb(void) {
   printed(eglCreatePbufferSurface(display, config, encoded), make_context(display, config, 3), print_pixels);
 }
 
-/* As Chromium's allocator: it ends the process when asked for a large alignment. */
+/* Like Chromium's allocator: ends the process at a request for a large alignment. */
 extern void* __libc_memalign(size_t alignment, size_t size);
 __attribute__((visibility("default"))) void* aligned_alloc(size_t alignment, size_t size) {
   if (alignment > 1 << 19) abort();

@@ -259,7 +259,7 @@ static void parts(void) {
   }
 }
 
-/* What is invalidated is never written to memory. */
+/* An invalidated image is never written to memory. */
 static void invalidate(void) {
   const GLuint framebuffer = make_framebuffer(make_texture(GL_RGBA8, 40, 24));
   const GLenum point = GL_COLOR_ATTACHMENT0;
@@ -271,7 +271,7 @@ static void invalidate(void) {
   }
 }
 
-/* Values as they are kept: written through scissored clears, which OpenGL ES encodes. */
+/* Values as memory keeps them, written by scissored clears. OpenGL ES encodes them. */
 static void formats(void) {
   const GLuint encoded = make_framebuffer(make_texture(GL_SRGB8_ALPHA8, 40, 24));
   const GLuint floats = make_framebuffer(make_texture(GL_RGBA16F, 16, 16));
@@ -305,7 +305,7 @@ static void contexts(EGLConfig config, EGLint version) {
   draw_window_and_swap(0);
 }
 
-/* Without a surface, frames ended by glFinish, glFlush and glReadPixels: headless programs. */
+/* Headless: no surface, and glFinish, glFlush and glReadPixels end the frames. */
 static void headless(const char* end) {
   unsigned char pixels[40 * 24 * 4];
   eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, eglGetCurrentContext());

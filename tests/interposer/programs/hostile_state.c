@@ -204,7 +204,7 @@ static void set(const read_state* state, double value) {
   }
 }
 
-/* What is named in the table stands for an object of this program's. */
+/* A name in the table stands for an object of this program. */
 static double value_to_set(const read_state* state, double before) {
   if (state->kind == kReadFramebuffer) return before == 0 ? framebuffer : 0;
   if (state->kind == kReadPackBuffer) return pack_buffer;

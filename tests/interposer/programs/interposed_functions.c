@@ -1,6 +1,6 @@
-/* interposed_functions: definitions of the C library's functions that may not be called while a symbol is looked
-   up, as a sanitizer's before it is ready. Linked into a program (whose lookups are marked by -Wl,--wrap) or
-   preloaded (there a constructor of the program's libraries must not meet them: nothing is marked). */
+/* interposed_functions: defines functions of the C library that must not be called while a symbol is looked up, as
+   in a sanitizer that is not ready. Linked into a program, -Wl,--wrap marks its lookups. Preloaded, nothing is
+   marked, because constructors of the program's libraries call them. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -39,7 +39,7 @@ void* __wrap_dlvsym(void* handle, const char* name, const char* version) {
 }
 #endif
 
-/* A volatile read keeps the compiler from calling the function that is being defined. */
+/* A volatile read keeps the compiler from calling the function defined here. */
 #define BYTE(pointer) (*(const volatile unsigned char*)(pointer))
 
 size_t strlen(const char* text) {
@@ -100,7 +100,7 @@ int memcmp(const void* a, const void* b, size_t count) {
   return 0;
 }
 
-/* A sandbox: no variable is known. */
+/* Like a sandbox: no variable is set. */
 char* getenv(const char* name) {
   refuse_in_lookup();
   (void)name;
@@ -142,7 +142,7 @@ pid_t getpid(void) {
   return (pid_t)syscall(SYS_getpid);
 }
 
-/* An allocator that finds the one beneath when it is first called, as profilers do. */
+/* Like a profiler's allocator: the first call finds the allocator beneath. */
 static void* next(const char* name) {
   return dlsym(RTLD_NEXT, name);
 }

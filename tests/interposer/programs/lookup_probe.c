@@ -1,5 +1,4 @@
-/* lookup_probe: a program without GL that prints what lookups give: with and without the shim the same text.
- */
+/* lookup_probe: a program without GL that prints the results of lookups. The shim must not change the text. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdio.h>

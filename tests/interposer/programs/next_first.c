@@ -1,5 +1,4 @@
-/* next_first: the library before the other one in load order; asks for the next definition of its own
- * function. */
+/* next_first: the earlier library in load order. It looks up the next definition of its own function. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stddef.h>

@@ -1,5 +1,4 @@
-/* next_second: the library behind the other one in load order; defines the function, and a name of the
- * shim's. */
+/* next_second: the later library in load order. It defines the function, and a name that the shim exports. */
 int probe_number(void);
 int probe_number(void) {
   return 2;

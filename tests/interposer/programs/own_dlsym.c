@@ -1,6 +1,5 @@
-/* own_dlsym: a dlsym that counts its calls and asks the one beneath, as overlays and wrappers define. In a program
-   it stands before every library's, preloaded behind another one it must be called all the same. The destructor
-   prints whether it was called. */
+/* own_dlsym: a dlsym that counts its calls and forwards, like those of overlays. In a program it stands before every
+   library's. Preloaded behind another one, it must still be called. The destructor prints whether it was. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stddef.h>

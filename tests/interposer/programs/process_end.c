@@ -1,4 +1,4 @@
-/* Process end: presents frames of 64x64 and ends in the way it is told. Arguments: frames, way. */
+/* process_end FRAMES WAY: presents frames of 64x64 and ends in this way. */
 #define _GNU_SOURCE
 #include <pthread.h>
 #include <signal.h>
@@ -21,7 +21,7 @@ static void present_one(void) {
   if (!eglSwapBuffers(display, surface)) _exit(8);
 }
 
-/* What the Go runtime does at the end of main. */
+/* The Go runtime does this at the end of main. */
 static void* leave_raw(void* unused) {
   syscall(SYS_exit_group, 7);
   return unused;
@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   }
   if (strcmp(way, "abort") == 0) abort();
   if (strcmp(way, "crash") == 0) *(volatile int*)0 = 1;
-  if (strcmp(way, "setuid") == 0 && setuid(getuid()) != 0) return 3; /* asks every thread */
+  if (strcmp(way, "setuid") == 0 && setuid(getuid()) != 0) return 3; /* signals every thread */
   if (strcmp(way, "wait") == 0 && wait(NULL) != -1) return 3;        /* it has no child of its own */
   return 7;
 }

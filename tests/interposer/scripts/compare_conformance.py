@@ -3,9 +3,9 @@
 
   compare_conformance.py [--tilepress PATH] [--tests egl|window|all] [--via auto|preload|glvnd] [-t REGEX]...
 
-egl: EGL and GLES tests; window: those and GLX (the default); all: the whole profile quick_gl. A test, or a subtest, whose
-result differs is run again on both sides, four times, alone: where the results then agree, or where those without the
-shim do not agree among themselves, it is listed as unsteady, else as a difference. A table of the differences on standard output; exit status 1 if there is one.
+egl: EGL and GLES tests; window: those and GLX (the default); all: the whole profile quick_gl. A test or subtest with another
+result runs again alone, four times on both sides. It is listed as unsteady if the results then agree, or if those without the
+shim differ among themselves. Else it is a difference. Prints a table of the differences; exit status 1 if there is one.
 """
 import argparse
 import bz2

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""What the shim takes of a program's thread per frame, against a bare glReadPixels of the same frame in the same run.
+"""Measures what the shim costs a program's thread per frame, beside a bare glReadPixels of the same frame.
 
   measure_readback.py [--tilepress PATH] [--program PATH] [--frames N] [--rounds N]
 
-The program (tests/interposer/programs/read_cost.c) ends the rendering before either, so that no waiting for it is in
-the figures; waiting for room in the queue is not either. A table of medians on standard output; exit status 1 if the
-ratio at 720x1280 is above 1.2.
+The program (tests/interposer/programs/read_cost.c) ends the rendering before either. So the figures contain no wait for
+rendering, and none for room in the queue. Prints a table of medians; exit status 1 if the ratio at 720x1280 is above 1.2.
 """
 import argparse
 import csv

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the preloaded library for AArch64 and runs the lookup probe under it in an emulator: lookups must give what
-# they give without it, and the shim must have seen them. Needs the Debian packages gcc-aarch64-linux-gnu,
+# Builds the preloaded library for AArch64 and runs the lookup probe under it in an emulator. Lookups must give the same
+# results as without it, and the shim must have seen them. Needs the Debian packages gcc-aarch64-linux-gnu,
 # libc6-dev-arm64-cross and qemu-user-static.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)

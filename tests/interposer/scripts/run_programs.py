@@ -3,11 +3,10 @@
 
   run_programs.py [--tilepress PATH] [--frames N] [--seconds S] [--via auto|preload|glvnd] [--no-overhead] [NAME...]
 
-A program that does not end is sent SIGTERM once N frames (100) are captured or S seconds (45) are over; without the shim
-it runs as long as it did with it. The overhead is the ratio of mean frame times of two more runs, one that captures with
-the default schemes and one that only counts. Programs that are not installed are skipped with the package to install.
-Exit status 1 if a program that runs without the shim ends otherwise with it, if fewer frames were captured than
-presented, or if a line of the shim's turns up in the program's output.
+A program that does not end gets SIGTERM once N frames (100) are captured or S seconds (45) are over. Without the shim it
+runs as long as with it. The overhead is the ratio of mean frame times of two more runs: one captures with the default
+schemes, one only counts. The script skips programs that are not installed and names their packages. Exit status 1 if a
+program ends otherwise with the shim, if frames are missing, or if the program's output has a line of the shim.
 """
 import argparse
 import csv
@@ -53,13 +52,13 @@ def run_until(command, seconds, environment, log, enough=lambda: False):
         time.sleep(0.2)
     elapsed = time.monotonic() - begin
     if process.poll() is None:
-        process.terminate()  # the program alone: what it has started is its own affair
+        process.terminate()  # the program alone, not what it has started
     try:
         process.wait(15)
     except subprocess.TimeoutExpired:
         pass
     try:
-        os.killpg(process.pid, signal.SIGKILL)  # what it has left behind
+        os.killpg(process.pid, signal.SIGKILL)  # the processes it has left behind
     except ProcessLookupError:
         pass
     process.wait()
@@ -132,7 +131,7 @@ def main():
             status, elapsed = run_until(shimmed, arguments.seconds, environment, f"{scratch}/{name}.with",
                                         lambda: rows_in(output) >= arguments.frames)
             without, _ = run_until(command, elapsed, environment, f"{scratch}/{name}.without")
-            for _ in range(2):  # what SIGTERM comes to depends on how far a program has got
+            for _ in range(2):  # the effect of SIGTERM depends on how far a program is
                 if without != status:
                     without, _ = run_until(command, elapsed + 2, environment, f"{scratch}/{name}.without")
             totals = harvest(output)

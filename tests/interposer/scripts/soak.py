@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""Runs the soak programs long, without and with the shim, and tells what they lost.
+"""Runs the soak programs for long, without and with the shim, and prints what grew.
 
   soak.py [--programs FOLDER] [--tilepress PATH] [--frames N] [--cycles N] [--via auto|preload|glvnd]
 
-egl_soak presents N frames (20000) from surfaces and contexts made anew every ten. window_soak makes N (7200: two hours of
-one a second) X windows and contexts, by EGL and by GLX, resizes each and destroys it again. Between the first part and the
-end neither memory nor descriptors nor threads may grow more than without the shim, and a new texture must get the same
-name. A table on standard output; exit status 1 if something grew.
+egl_soak presents N frames (20000) and makes new surfaces and contexts every ten. window_soak makes N X windows and contexts
+(7200: two hours of one a second) by EGL and by GLX, resizes each and destroys it. Memory, descriptors and threads must
+not grow more than without the shim, and a new texture must get the same name. Prints a table; exit status 1 if something grew.
 """
 import argparse
 import json
