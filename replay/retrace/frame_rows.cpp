@@ -37,7 +37,7 @@ bool FrameRows::look() {
   char buffer[1 << 14];
   for (ssize_t got = 0; (got = read(fd_, buffer, sizeof buffer)) > 0;)
     lines_ += static_cast<uint64_t>(std::count(buffer, buffer + got, '\n'));
-  // run.json is replaced while frames pass that are not taken.
+  // The shim replaces run.json while it skips frames.
   struct stat json {};
   int64_t changed_ns = json_changed_ns_;
   if (stat((run_folder_ + "/run.json").c_str(), &json) == 0)

@@ -1,4 +1,4 @@
-// Frame rows: how many frames a running shim has finished, by the rows of its growing frames.csv.
+// Frame rows: counts the frames that a running shim has finished, by the rows of its frames.csv.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace tilepress {
 
-/// Folders below `folder` that hold a run.
+/// Returns the folders below `folder` that hold a run, sorted.
 std::vector<std::string> run_folders_in(const std::string& folder);
 
 class FrameRows {
@@ -18,7 +18,7 @@ class FrameRows {
   FrameRows& operator=(const FrameRows&) = delete;
   ~FrameRows();
 
-  /// Looks again. True if anything went on since the last look: rows, or counts of frames not taken.
+  /// Looks again. Returns true if rows, or counts of frames not taken, are new since the last look.
   bool look();
   uint64_t count() const { return lines_ > 0 ? lines_ - 1 : 0; }  ///< without the header
 

@@ -1,4 +1,4 @@
-// Private Xvfb: -displayfd finds a free number, a random cookie keeps others out.
+// Private Xvfb: -displayfd finds a free number, a random cookie excludes other users.
 #include "private_xvfb.h"
 
 #include <fcntl.h>
@@ -12,7 +12,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "program_search.h"
+#include "tilepress/program_search.h"
 
 namespace tilepress {
 namespace {
@@ -20,8 +20,8 @@ namespace {
 constexpr std::chrono::seconds kStartTimeout{20};
 constexpr int kLookPeriodMs = 50;
 
-/// An Xauthority file with one entry for any address and display: family 65535, empty address and number,
-/// name, cookie; lengths are big-endian 16 bits.
+/// Writes an Xauthority file with one entry for any address and display: family 65535, empty address and
+/// number, name, cookie. Lengths are big-endian 16 bits.
 bool write_cookie(const std::string& path) {
   std::array<char, 16> cookie;
   if (getrandom(cookie.data(), cookie.size(), 0) != static_cast<ssize_t>(cookie.size())) return false;
@@ -37,7 +37,8 @@ bool write_cookie(const std::string& path) {
   return good;
 }
 
-/// The number that the server writes once it accepts connections. Empty if it does not, or to be stopped.
+/// Returns the number that the server writes once it accepts connections; empty if none comes or `stop` is
+/// true.
 std::string read_number(int fd, const std::function<bool()>& stop) {
   const auto limit = std::chrono::steady_clock::now() + kStartTimeout;
   std::string text;
@@ -54,34 +55,29 @@ std::string read_number(int fd, const std::function<bool()>& stop) {
 
 }  // namespace
 
-bool PrivateXvfb::start(const std::string& folder, uint32_t width, uint32_t height,
-                        const std::function<bool()>& stop, std::string& error) {
-  const std::string program = find_in_path("Xvfb");
-  if (program.empty()) {
-    error = "Xvfb: not found (Debian package xvfb)";
-    return false;
-  }
+Result<void> PrivateXvfb::start(const std::string& folder, uint32_t width, uint32_t height,
+                                const std::function<bool()>& stop) {
+  const Result<std::string> program = find_program("Xvfb");
+  if (!program) return Error{program.error().kind, program.error().text + " (Debian package xvfb)"};
   authority_ = folder + "/xauthority";
   int number[2];
-  if (!write_cookie(authority_) || pipe2(number, O_CLOEXEC) != 0) {
-    error = authority_ + ": " + std::strerror(errno);
-    return false;
-  }
+  if (!write_cookie(authority_) || pipe2(number, O_CLOEXEC) != 0)
+    return Error{ErrorKind::kSystem, authority_ + ": " + std::strerror(errno)};
   const std::string screen =
       std::to_string(std::max(width, 1280u)) + "x" + std::to_string(std::max(height, 1024u)) + "x24";
-  const bool started = server_.start({program, "-displayfd", std::to_string(number[1]), "-auth", authority_,
-                                      "-screen", "0", screen, "-nolisten", "tcp", "-noreset"},
-                                     {}, error, number[1]);
+  const Result<void> started =
+      server_.start({*program, "-displayfd", std::to_string(number[1]), "-auth", authority_, "-screen", "0",
+                     screen, "-nolisten", "tcp", "-noreset"},
+                    {}, number[1]);
   close(number[1]);
   const std::string text = started ? read_number(number[0], stop) : "";
   close(number[0]);
-  if (started && text.empty()) {
-    server_.wait(std::chrono::milliseconds(100));
-    const auto& lines = server_.errors().lines();
-    error = "Xvfb: does not come up" + (lines.empty() ? "" : ": " + lines.back());
-  }
+  if (!started) return started;
   display_ = ":" + text;
-  return !text.empty();
+  if (!text.empty()) return {};
+  server_.wait(std::chrono::milliseconds(100));
+  const auto& lines = server_.errors().lines();
+  return Error{ErrorKind::kSystem, "Xvfb: does not come up" + (lines.empty() ? "" : ": " + lines.back())};
 }
 
 }  // namespace tilepress

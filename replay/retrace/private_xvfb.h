@@ -1,4 +1,4 @@
-// Private Xvfb: an X server of our own, that nobody else can connect to.
+// Private Xvfb: an X server that only our own children can connect to.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,10 @@ namespace tilepress {
 
 class PrivateXvfb {
  public:
-  /// Starts a server with a screen of at least the size given, on a display number that it finds itself; the
-  /// cookie lies in `folder`. False and one line in `error` if there is none to start, if it does not come
-  /// up, or once `stop` returns true.
-  bool start(const std::string& folder, uint32_t width, uint32_t height, const std::function<bool()>& stop,
-             std::string& error);
+  /// Starts a server with a screen of at least `width` x `height` pixels on a free display number. The cookie
+  /// goes into `folder`. Error: Xvfb is not installed or does not come up, or `stop` returned true.
+  Result<void> start(const std::string& folder, uint32_t width, uint32_t height,
+                     const std::function<bool()>& stop);
   const std::string& display() const { return display_; }      ///< ":7"
   const std::string& authority() const { return authority_; }  ///< for XAUTHORITY
 

@@ -1,13 +1,16 @@
-// Replay attempt: environment and command of the retracer, and the watch over it.
+// Replay attempt: builds the retracer's environment, starts it and watches its rows.
 #include "replay_attempt.h"
 
+#include <spdlog/spdlog.h>
+
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "frame_rows.h"
 #include "private_xvfb.h"
-#include "program_search.h"
+#include "tilepress/program_search.h"
 #include "watched_process.h"
 
 namespace tilepress {
@@ -16,6 +19,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kLookPeriod{50};
+constexpr const char* kShimPrefix =
+    "tilepress: ";  ///< of each line in the shim's log; the logger adds its own
 
 std::map<std::string, std::string> environment_of(const ReplayRoad& road, const AttemptOrder& order,
                                                   const ReplayOptions& options, RunOptions run) {
@@ -27,7 +32,7 @@ std::map<std::string, std::string> environment_of(const ReplayRoad& road, const 
   environment["LD_PRELOAD"] =
       preload != nullptr && *preload != '\0' ? options.shim + ":" + preload : options.shim;
   environment["WAFFLE_PLATFORM"] = road.waffle_platform;
-  // What a desktop session says about window systems must not reach a replay.
+  // A replay must not see the window system of the desktop session.
   environment["EGL_PLATFORM"] = "";
   environment["WAYLAND_DISPLAY"] = "";
   if (road.display != ReplayDisplay::kX11) environment["DISPLAY"] = environment["XAUTHORITY"] = "";
@@ -50,7 +55,7 @@ std::vector<std::string> seen_in(const std::string& folder) {
   return lines;
 }
 
-/// Waits for the end of the retracer, or brings it about.
+/// Waits until the retracer ends, or ends it.
 void watch(WatchedProcess& retracer, const AttemptOrder& order, const ReplayOptions& options,
            const std::function<bool()>& stop, std::atomic<uint64_t>& rows, AttemptOutcome& outcome) {
   FrameRows frames(order.folder + "/runs");
@@ -71,42 +76,38 @@ void watch(WatchedProcess& retracer, const AttemptOrder& order, const ReplayOpti
 
 }  // namespace
 
-AttemptOutcome run_attempt(const ReplayRoad& road, const AttemptOrder& order, const ReplayOptions& options,
-                           const RunOptions& run, const std::function<bool()>& stop,
-                           std::atomic<uint64_t>& rows) {
-  AttemptOutcome outcome;
-  const std::string program = find_in_path(road.retracer);
-  if (program.empty()) {
-    outcome.error = road.retracer + ": not found (Debian package apitrace)";
-    return outcome;
-  }
+Result<AttemptOutcome> run_attempt(const ReplayRoad& road, const AttemptOrder& order,
+                                   const ReplayOptions& options, const RunOptions& run,
+                                   const std::function<bool()>& stop, std::atomic<uint64_t>& rows) {
+  const Result<std::string> program = find_program(road.retracer);
+  if (!program) return Error{program.error().kind, program.error().text + " (Debian package apitrace)"};
   std::error_code code;
   for (const char* part : {"/runs", "/session"})
     std::filesystem::create_directories(order.folder + part, code);
-  if (code) {
-    outcome.error = order.folder + ": " + code.message();
-    return outcome;
-  }
+  if (code) return Error{ErrorKind::kFile, order.folder + ": " + code.message()};
   std::map<std::string, std::string> environment = environment_of(road, order, options, run);
+  AttemptOutcome outcome;
   PrivateXvfb xvfb;
   if (road.display == ReplayDisplay::kXvfb) {
-    if (!xvfb.start(order.folder + "/session", order.width, order.height, stop, outcome.error)) {
-      outcome.interrupted = stop();
-      return outcome;
-    }
+    const Result<void> up = xvfb.start(order.folder + "/session", order.width, order.height, stop);
+    outcome.interrupted = !up && stop();
+    if (outcome.interrupted) return outcome;
+    if (!up) return up.error();
     environment["DISPLAY"] = xvfb.display();
     environment["XAUTHORITY"] = xvfb.authority();
   }
   WatchedProcess retracer;
   const auto begin = Clock::now();
-  if (!retracer.start({program, "-b", order.trace_path}, environment, outcome.error)) return outcome;
+  if (const auto started = retracer.start({*program, "-b", order.trace_path}, environment); !started)
+    return started.error();
   watch(retracer, order, options, stop, rows, outcome);
   outcome.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   outcome.exit_status = retracer.exit_status();
   outcome.signal = retracer.signal();
   outcome.last_lines.assign(retracer.errors().lines().begin(), retracer.errors().lines().end());
   outcome.seen = seen_in(order.folder + "/session");
-  for (const std::string& line : lines_of(order.folder + "/session/log")) options.explain(line);
+  for (const std::string& line : lines_of(order.folder + "/session/log"))
+    spdlog::info("{}", line.substr(line.starts_with(kShimPrefix) ? std::strlen(kShimPrefix) : 0));
   return outcome;
 }
 

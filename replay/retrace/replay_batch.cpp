@@ -1,4 +1,4 @@
-// Replay batch: a few threads that each wait for a retracer.
+// Replay batch: one thread reads traces, the others each wait for a retracer.
 #include "tilepress/replay_batch.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ MeanSums sum_over(const std::vector<std::unique_ptr<TraceReplay>>& replays, cons
   return sums;
 }
 
-/// Replays that are prepared, in order, from the thread that reads traces to those that replay them.
+/// A queue of prepared replays, from the thread that reads traces to the threads that replay them.
 class ReadyReplays {
  public:
   void add(TraceReplay* replay) {
@@ -50,7 +50,7 @@ class ReadyReplays {
     }
     changed_.notify_one();
   }
-  /// No more are added.
+  /// No replay is added after this.
   void close() {
     {
       const std::lock_guard lock(mutex_);
@@ -58,7 +58,7 @@ class ReadyReplays {
     }
     changed_.notify_all();
   }
-  /// Waits for it; null if there is none left, or once `stop` is true.
+  /// Waits for the next replay. Returns null if none is left, or once `stop` is set.
   TraceReplay* next(const std::atomic<int>& stop) {
     std::unique_lock lock(mutex_);
     while (next_ == replays_.size() && !closed_ && !stop) changed_.wait_for(lock, kTickPeriod);

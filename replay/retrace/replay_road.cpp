@@ -1,5 +1,4 @@
-// Replay road: eglretrace without a display replays EGL and GLX traces alike; the others are for when it does
-// not.
+// Replay road: eglretrace without a display comes first, because it replays EGL and GLX traces alike.
 #include "replay_road.h"
 
 namespace tilepress {
@@ -10,29 +9,7 @@ ReplayRoad egl_road(ReplayDisplay display, std::string why) {
           std::move(why)};
 }
 
-}  // namespace
-
-std::string ReplayRoad::name() const {
-  switch (display) {
-    case ReplayDisplay::kSurfaceless:
-      return retracer + ", surfaceless EGL";
-    case ReplayDisplay::kXvfb:
-      return retracer + ", private Xvfb";
-    default:
-      return retracer + ", DISPLAY";
-  }
-}
-
-std::vector<ReplayRoad> replay_roads(TraceApi api, RetracerChoice retracer, ReplayDisplay display,
-                                     std::string& error) {
-  if (api == TraceApi::kDirect3d) {
-    error = "holds Direct3D calls, which no retracer of this system replays";
-    return {};
-  }
-  if (retracer == RetracerChoice::kGlx && display == ReplayDisplay::kSurfaceless) {
-    error = "glretrace needs an X server: --api glx does not go with --display surfaceless";
-    return {};
-  }
+std::vector<ReplayRoad> ranked_roads(TraceApi api, RetracerChoice retracer, ReplayDisplay display) {
   if (retracer == RetracerChoice::kGlx)
     return {{"glretrace", display == ReplayDisplay::kAuto ? ReplayDisplay::kXvfb : display, "", "asked for"}};
   if (display == ReplayDisplay::kXvfb || display == ReplayDisplay::kX11) {
@@ -48,6 +25,28 @@ std::vector<ReplayRoad> replay_roads(TraceApi api, RetracerChoice retracer, Repl
   else
     roads.push_back({"glretrace", ReplayDisplay::kXvfb, "", "nothing was captured without a display"});
   return roads;
+}
+
+}  // namespace
+
+std::string ReplayRoad::name() const {
+  switch (display) {
+    case ReplayDisplay::kSurfaceless:
+      return retracer + ", surfaceless EGL";
+    case ReplayDisplay::kXvfb:
+      return retracer + ", private Xvfb";
+    default:
+      return retracer + ", DISPLAY";
+  }
+}
+
+Result<std::vector<ReplayRoad>> replay_roads(TraceApi api, RetracerChoice retracer, ReplayDisplay display) {
+  if (api == TraceApi::kDirect3d)
+    return Error{ErrorKind::kUnsupported, "holds Direct3D calls, which no retracer of this system replays"};
+  if (retracer == RetracerChoice::kGlx && display == ReplayDisplay::kSurfaceless)
+    return Error{ErrorKind::kBadValue,
+                 "glretrace needs an X server: --api glx does not go with --display surfaceless"};
+  return ranked_roads(api, retracer, display);
 }
 
 }  // namespace tilepress

@@ -18,9 +18,8 @@ struct ReplayRoad {
   std::string name() const;  ///< "eglretrace, surfaceless EGL"
 };
 
-/// The roads worth trying, the best first; one if the choice is forced. Empty and one line in `error` if the
-/// trace cannot be replayed here or the choice contradicts itself.
-std::vector<ReplayRoad> replay_roads(TraceApi api, RetracerChoice retracer, ReplayDisplay display,
-                                     std::string& error);
+/// Returns the roads worth trying, the best first. A forced choice leaves one. Error: kUnsupported if the
+/// trace cannot be replayed here, kBadValue if the choices contradict each other.
+Result<std::vector<ReplayRoad>> replay_roads(TraceApi api, RetracerChoice retracer, ReplayDisplay display);
 
 }  // namespace tilepress

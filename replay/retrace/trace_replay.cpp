@@ -1,16 +1,19 @@
-// Trace replay: prepares, tries the roads, judges what came of it and puts the run in its place.
+// Trace replay: reads the trace, tries the roads, and moves the run into its place.
 #include "tilepress/trace_replay.h"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
-#include <mutex>
 #include <thread>
 
 #include "frame_rows.h"
 #include "replay_attempt.h"
+#include "replay_folder.h"
 #include "replay_road.h"
+#include "replay_verdict.h"
 #include "tilepress/file_digest.h"
+#include "tilepress/plural.h"
 #include "tilepress/run_lock.h"
 
 namespace tilepress {
@@ -18,21 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::mutex making_folders;  ///< of replays at work at a time, which share the output folder
-
-std::string plural(uint64_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
+/// Frames that may wait for the worker. The renderer and the worker take turns on all cores: with this many,
+/// one rarely waits for the other. A crash loses them, but a crashed retracer can be started again.
+constexpr uint32_t kQueueFrames = 8;
 
 const std::string* find_member(const RunInfo& info, const std::string& name) {
   for (const auto& [member, value] : info.further)
     if (member == name) return &value;
   return nullptr;
-}
-
-std::string absolute_path(const std::string& path) {
-  std::error_code code;
-  return fs::absolute(path, code).string();
 }
 
 /// Frames of the trace that the options take, counted per surface as the shim counts them.
@@ -44,32 +40,55 @@ uint64_t count_wanted(const TraceSummary& trace, const RunOptions& options) {
   return count;
 }
 
-/// Renderer and worker want all cores by turns: with as many, hardly ever does one wait for the other.
-constexpr uint32_t kQueueFrames = 8;
+/// The largest run below `folder`; a retracer makes one.
+std::optional<RunRecord> largest_run(const std::string& folder) {
+  std::optional<RunRecord> largest;
+  for (const std::string& path : run_folders_in(folder)) {
+    wait_for_writer(path, true);
+    Result<RunRecord> run = read_run(path);
+    if (!run)
+      spdlog::info("{}", run.error().text);
+    else if (!largest || run->frames.size() > largest->frames.size())
+      largest = std::move(*run);
+  }
+  return largest;
+}
+
+AttemptOrder order_for(const std::string& trace_path, const std::string& folder, const TraceSummary& trace,
+                       uint64_t frames_wanted, const RunOptions& options) {
+  AttemptOrder order;
+  std::error_code code;
+  order.trace_path = fs::absolute(trace_path, code).string();
+  order.folder = folder;
+  order.frames_wanted = frames_wanted;
+  const auto last = options.frames.last();
+  for (const TraceSurface& surface : trace.surfaces) {  // none while the trace is not read
+    order.width = std::max(order.width, surface.width);
+    order.height = std::max(order.height, surface.height);
+    order.may_stop_early = order.may_stop_early || (last && *last + 1 < surface.frames);
+  }
+  // The rows of targets and triggers cannot be told from those of the frames that are counted.
+  if (options.all_targets || options.triggers != 0) order.may_stop_early = false;
+  return order;
+}
 
 }  // namespace
 
-struct TraceReplay::Attempt {
-  ReplayRoad road;
-  std::string folder;
-  AttemptOutcome outcome;
-  int stop_signal = 0;       ///< if that interrupted it
-  RunRecord run{};           ///< the largest run of the attempt, a retracer makes one
-  std::string run_folder{};  ///< where it still lies; empty if there is none
-};
-
 TraceReplay::TraceReplay(ReplayInput input, const ReplayOptions& options)
-    : input_(std::move(input)), options_(options), run_options_(options.run) {
+    : input_(std::move(input)),
+      options_(options),
+      run_options_(options.run),
+      folder_(std::make_unique<ReplayFolder>(options.run.output, input_.name)) {
   if (input_.frames) run_options_.frames = *input_.frames;
-  // A retracer that crashes can be started again: what is in the queue then may be more than in programs.
   run_options_.queue_frames = kQueueFrames;
-  run_path_ = options.run.output + "/" + input_.name;
-  partial_path_ = run_path_ + ".partial";
 }
 
-void TraceReplay::fail(std::string reason, ReplayStatus status) {
+TraceReplay::~TraceReplay() = default;
+
+bool TraceReplay::fail(std::string reason, ReplayStatus status) {
   result_.status = status;
   result_.reason = std::move(reason);
+  return false;
 }
 
 std::optional<uint64_t> TraceReplay::frames_wanted() const {
@@ -77,52 +96,45 @@ std::optional<uint64_t> TraceReplay::frames_wanted() const {
   return frames == kUnknown ? std::nullopt : std::optional(frames);
 }
 
-bool TraceReplay::can_be_read_meanwhile() const {
-  if (!input_.sha256.empty() || options_.resume || !run_options_.frames.all()) return false;
-  std::string error;
-  const auto roads = replay_roads(TraceApi::kUnknown, options_.retracer, options_.display, error);
-  std::error_code code;
-  return !roads.empty() && roads[0].display == ReplayDisplay::kSurfaceless &&
-         !fs::exists(partial_path_, code) && !fs::exists(run_path_, code) && begins_as_trace(input_.path);
-}
-
 bool TraceReplay::prepare(TraceReading reading) {
   if (reading == TraceReading::kMeanwhile && can_be_read_meanwhile()) return true;
   return read_trace() && check_folder();
 }
 
-/// False, and failed, if the trace shows that it cannot or should not be replayed.
+bool TraceReplay::can_be_read_meanwhile() const {
+  if (!input_.sha256.empty() || options_.resume || !run_options_.frames.all()) return false;
+  const auto roads = replay_roads(TraceApi::kUnknown, options_.retracer, options_.display);
+  return roads && roads->front().display == ReplayDisplay::kSurfaceless && !folder_->exists() &&
+         begins_as_trace(input_.path);
+}
+
 bool TraceReplay::read_trace() {
-  std::string error;
-  const std::optional<TraceSummary> trace = summarize_trace(input_.path, error);
-  if (!trace) return fail(error), false;
+  const Result<TraceSummary> trace = summarize_trace(input_.path);
+  if (!trace) return fail(trace.error().text);
   trace_ = *trace;
   result_.frames_in_trace = trace_.frames;
-  if (trace_.state == TraceState::kCorrupt) {
-    fail("corrupt at byte " + std::to_string(trace_.offset) + " of the stream, after " +
-         plural(trace_.frames, "frame") + ": " + trace_.reason + "; not replayed");
-    return false;
-  }
-  const std::optional<std::string> digest = sha256_of_file(input_.path, error);
-  if (!digest) return fail(error), false;
+  const std::string frames_text = plural(trace_.frames, "frame");
+  if (trace_.state == TraceState::kCorrupt)
+    return fail("corrupt at byte " + std::to_string(trace_.offset) + " of the stream, after " + frames_text +
+                ": " + trace_.reason + "; not replayed");
+  const Result<std::string> digest = sha256_of_file(input_.path);
+  if (!digest) return fail(digest.error().text);
   sha256_ = *digest;
   if (!input_.sha256.empty() && input_.sha256 != sha256_)
-    return fail("has SHA-256 " + sha256_ + ", not " + input_.sha256 + " as the manifest says"), false;
-  const bool triggered =
-      run_options_.triggers != 0;  // then nobody knows beforehand how many frames there are
+    return fail("has SHA-256 " + sha256_ + ", not " + input_.sha256 + " as the manifest says");
+  const bool triggered = run_options_.triggers != 0;  // the trace does not say how many frames they make
   if (trace_.frames == 0 && !triggered) {
     const std::string cut =
         trace_.state == TraceState::kTruncated ? "truncated (" + trace_.reason + "), " : "";
-    fail(cut + "presents no frame (" + plural(trace_.calls, "call") + ", API " + name_of(trace_.api) + ")",
-         ReplayStatus::kNothingCaptured);
-    return false;
+    return fail(
+        cut + "presents no frame (" + plural(trace_.calls, "call") + ", API " + name_of(trace_.api) + ")",
+        ReplayStatus::kNothingCaptured);
   }
   result_.frames_wanted = count_wanted(trace_, run_options_);
-  if (result_.frames_wanted == 0 && !triggered) {
-    fail("none of its " + plural(trace_.frames, "frame") + " is asked for", ReplayStatus::kNothingCaptured);
-    return false;
-  }
-  if (replay_roads(trace_.api, options_.retracer, options_.display, error).empty()) return fail(error), false;
+  if (result_.frames_wanted == 0 && !triggered)
+    return fail("none of its " + frames_text + " is asked for", ReplayStatus::kNothingCaptured);
+  const auto roads = replay_roads(trace_.api, options_.retracer, options_.display);
+  if (!roads) return fail(roads.error().text);
   frames_wanted_ = result_.frames_wanted;
   read_ = true;
   return true;
@@ -130,14 +142,14 @@ bool TraceReplay::read_trace() {
 
 bool TraceReplay::check_folder() {
   std::error_code code;
-  if (fs::exists(partial_path_, code)) {
+  if (fs::exists(folder_->partial_path(), code)) {
     if (!options_.resume)
-      return fail(partial_path_ + " is left of an interrupted replay (--resume replaces it)"), false;
-    fs::remove_all(partial_path_, code);
+      return fail(folder_->partial_path() + " is left of an interrupted replay (--resume replaces it)");
+    fs::remove_all(folder_->partial_path(), code);
   }
-  if (!fs::exists(run_path_, code)) return true;
+  if (!fs::exists(folder_->run_path(), code)) return true;
   if (!options_.resume)
-    return fail(run_path_ + " exists already (--resume keeps it if it is the same replay)"), false;
+    return fail(folder_->run_path() + " exists already (--resume keeps it if it is the same replay)");
   return keep_finished_run();
 }
 
@@ -147,221 +159,119 @@ std::string TraceReplay::fingerprint() const {
          " display=" + std::to_string(static_cast<int>(options_.display));
 }
 
+/// Returns true if the run is to be replayed again, and removes it then.
 bool TraceReplay::keep_finished_run() {
-  Result<RunRecord> read = read_run(run_path_);
-  if (!read) return fail(read.error().text), false;
+  const std::string& path = folder_->run_path();
+  Result<RunRecord> read = read_run(path);
+  if (!read) return fail(read.error().text);
   RunRecord& run = *read;
   const std::string* trace = find_member(run.info, "trace_sha256");
   const std::string* options = find_member(run.info, "replay_options");
   if (trace == nullptr || options == nullptr || *trace != sha256_ || *options != fingerprint())
-    return fail(run_path_ + " holds a run of another trace or with other options"), false;
+    return fail(path + " holds a run of another trace or with other options");
   if (run_options_.triggers != 0) result_.frames_wanted = run.presented_frames();
-  if (run.state == "finished" && run.presented_frames() == result_.frames_wanted) {
-    result_.status = ReplayStatus::kKept;
-    if (trace_.state == TraceState::kTruncated)
-      fail("truncated after " + plural(trace_.frames, "frame") + ": " + trace_.reason + "; its run was kept");
-    result_.frames_captured = run.presented_frames();
-    frames_done_ = run.presented_frames();
-    result_.run = std::move(run);
-    return false;
+  if (run.state != "finished" || run.presented_frames() != result_.frames_wanted) {
+    spdlog::info("{}: replayed again, because the run in {} is {}", input_.path, path, run.state);
+    std::error_code code;
+    fs::remove_all(path, code);
+    return true;
   }
-  options_.explain(input_.path + ": replayed again, the run in " + run_path_ + " is " + run.state);
-  std::error_code code;
-  fs::remove_all(run_path_, code);
-  return true;
+  result_.status = ReplayStatus::kKept;
+  if (trace_.state == TraceState::kTruncated)
+    fail("truncated after " + plural(trace_.frames, "frame") + ": " + trace_.reason + "; its run was kept");
+  result_.frames_captured = run.presented_frames();
+  frames_done_ = run.presented_frames();
+  result_.run = std::move(run);
+  return false;
 }
 
 void TraceReplay::run(const std::atomic<int>& stop) {
-  if (!make_folder()) return;
-  std::string error;
-  std::vector<ReplayRoad> roads =
-      replay_roads(read_ ? trace_.api : TraceApi::kUnknown, options_.retracer, options_.display, error);
-  for (size_t i = 0; i < roads.size(); ++i) {
-    const std::string folder = partial_path_ + "/" + std::to_string(i);
-    options_.explain(input_.path + ": " + roads[i].name() + " (" + roads[i].why + ")");
-    Attempt attempt{roads[i], folder, attempt_road(roads[i], folder, stop)};
-    if (!read_) break;
-    if (attempt.outcome.interrupted) attempt.stop_signal = stop;
-    // The first road is the same for all: which others there are, the trace tells.
-    roads = replay_roads(trace_.api, options_.retracer, options_.display, error);
-    find_run(attempt);
-    judge(attempt);
-    const bool last = i + 1 == roads.size() || !attempt.run.frames.empty() || attempt.outcome.interrupted ||
-                      attempt.outcome.hung;
-    if (last) {
-      settle(attempt);
-      break;
-    }
-    options_.explain(input_.path + ": " + result_.reason);
+  if (const auto made = folder_->make(); !made) {
+    fail(made.error().text);
+    return;
   }
-  remove_folder();
-}
-
-bool TraceReplay::make_folder() {
-  const std::lock_guard lock(making_folders);
-  std::error_code code;
-  for (fs::path path = options_.run.output; path.has_relative_path() && !fs::exists(path, code);
-       path = path.parent_path())
-    made_folders_.push_back(path.string());
-  fs::create_directories(options_.run.output, code);
-  if (!code && !fs::create_directory(partial_path_, code) && !code)
-    code = std::make_error_code(std::errc::file_exists);
-  if (code) fail(partial_path_ + ": " + code.message());
-  return !code;
-}
-
-/// A trace that turned out not to be replayable leaves nothing, as if it had been read before.
-void TraceReplay::remove_folder() {
-  const std::lock_guard lock(making_folders);
-  std::error_code code;
-  fs::remove_all(partial_path_, code);
-  for (const std::string& path : made_folders_)
-    if (read_ || !fs::remove(path, code)) return;
-}
-
-AttemptOutcome TraceReplay::attempt_road(const ReplayRoad& road, const std::string& folder,
-                                         const std::atomic<int>& stop) {
-  AttemptOrder order;
-  order.folder = folder;
-  order.trace_path = absolute_path(input_.path);
-  order.frames_wanted = result_.frames_wanted;
-  for (const TraceSurface& surface : trace_.surfaces) {  // none while the trace is not read
-    order.width = std::max(order.width, surface.width);
-    order.height = std::max(order.height, surface.height);
-    const auto last = run_options_.frames.last();
-    order.may_stop_early = order.may_stop_early || (last && *last + 1 < surface.frames);
-    // Rows are counted, and these would be counted with the rest.
-    if (run_options_.all_targets || run_options_.triggers != 0) order.may_stop_early = false;
+  bool over = false;
+  for (size_t i = 0; !over; ++i) {
+    // The first road is the same for every trace. The trace, read by then, decides about the second.
+    const auto roads =
+        replay_roads(read_ ? trace_.api : TraceApi::kUnknown, options_.retracer, options_.display);
+    if (!roads || i == roads->size()) break;
+    if (i > 0) spdlog::info("{}: {}", input_.path, result_.reason);
+    over = try_road((*roads)[i], folder_->partial_path() + "/" + std::to_string(i), stop);
   }
+  folder_->remove(!read_);  // a trace that cannot be replayed leaves nothing, whenever it was read
+}
+
+/// Returns false if another road may do better.
+bool TraceReplay::try_road(const ReplayRoad& road, const std::string& folder, const std::atomic<int>& stop) {
+  spdlog::info("{}: {} ({})", input_.path, road.name(), road.why);
+  result_.retracer_lines.clear();
+  result_.seconds = 0;
+  const Result<AttemptOutcome> outcome = read_and_attempt(road, folder, stop);
+  if (!read_) return true;
+  if (!outcome) return fail(outcome.error().text);
+  const int stop_signal = stop;
+  std::optional<RunRecord> run = largest_run(folder + "/runs");
+  const ReplayEvidence evidence{trace_,        run_options_, result_.frames_wanted, options_.timeout,
+                                road.retracer, *outcome,     run ? &*run : nullptr};
+  result_ = judge(evidence);
+  const std::string end = end_text(evidence);
+  if (result_.status == ReplayStatus::kDone && !end.empty())
+    spdlog::info("{}: {}, after the last frame", input_.path, end);
+  if (!run || run->frames.empty()) return outcome->interrupted || outcome->hung;
+  settle(road, *outcome, std::move(*run), stop_signal);
+  return true;
+}
+
+/// Attempts the replay, and reads the trace meanwhile unless it is read.
+Result<AttemptOutcome> TraceReplay::read_and_attempt(const ReplayRoad& road, const std::string& folder,
+                                                     const std::atomic<int>& stop) {
+  const AttemptOrder order = order_for(input_.path, folder, trace_, result_.frames_wanted, run_options_);
   std::atomic<bool> hopeless{false};
   std::thread reader;
   if (!read_) reader = std::thread([&] { hopeless = !read_trace(); });
-  const AttemptOutcome outcome = run_attempt(
+  Result<AttemptOutcome> outcome = run_attempt(
       road, order, options_, run_options_, [&] { return stop || hopeless; }, frames_done_);
   if (reader.joinable()) reader.join();
   if (hopeless) frames_wanted_ = frames_done_ = 0;
   return outcome;
 }
 
-void TraceReplay::find_run(Attempt& attempt) {
-  for (const std::string& folder : run_folders_in(attempt.folder + "/runs")) {
-    wait_for_writer(folder, true);
-    Result<RunRecord> run = read_run(folder);
-    if (!run) {
-      options_.explain(run.error().text);
-      continue;
-    }
-    if (!attempt.run_folder.empty() && run->frames.size() <= attempt.run.frames.size()) continue;
-    attempt.run = std::move(*run);
-    attempt.run_folder = folder;
-  }
-}
-
 /// Closes the run with what is known of the trace, and moves it into its place in one step.
-void TraceReplay::settle(Attempt& attempt) {
-  if (attempt.run.frames.empty()) return;
+void TraceReplay::settle(const ReplayRoad& road, const AttemptOutcome& outcome, RunRecord run,
+                         int stop_signal) {
   RunEnd end;
   end.overrules = true;
   end.state = result_.frames_captured == result_.frames_wanted ? "finished" : "failed";
   if (result_.status == ReplayStatus::kInterrupted)
-    end.state = "killed by signal " + std::to_string(attempt.stop_signal);
+    end.state = "killed by signal " + std::to_string(stop_signal);
   end.reason = result_.reason;
-  if (attempt.outcome.stopped_early && end.reason.empty())
-    end.reason = "ended after the last frame asked for";
-  end.exit_status = attempt.outcome.exit_status;
-  if (!attempt.outcome.stopped_early) end.signal = attempt.outcome.signal;
-  if (attempt.outcome.interrupted) end.signal = attempt.stop_signal;
+  if (outcome.stopped_early && end.reason.empty()) end.reason = "ended after the last frame asked for";
+  end.exit_status = outcome.exit_status;
+  if (!outcome.stopped_early) end.signal = outcome.signal;
+  if (outcome.interrupted) end.signal = stop_signal;
   end.program = input_.name;
   end.via = "replay";
   end.further = {{"trace", fs::absolute(input_.path).string()},
                  {"trace_sha256", sha256_},
                  {"trace_program", trace_.program},
                  {"trace_api", name_of(trace_.api)},
-                 {"retracer", attempt.road.name()},
+                 {"retracer", road.name()},
                  {"replay_options", fingerprint()}};
   if (!input_.category.empty()) end.further.emplace_back("category", input_.category);
   end.figures = {{"trace_frames", trace_.frames}, {"expected_frames", result_.frames_wanted}};
-  result_.run = std::move(attempt.run);
-  if (const auto closed = close_run(end, result_.run); !closed) return fail(closed.error().text);
-  std::error_code code;
-  fs::rename(attempt.run_folder, run_path_, code);
-  if (code) return fail(run_path_ + ": " + code.message());
-  result_.run.path = run_path_;
-}
-
-/// How the retracer ended, as the end of a sentence; empty if it ended well.
-std::string TraceReplay::end_text(const Attempt& attempt) const {
-  const AttemptOutcome& outcome = attempt.outcome;
-  const std::string& who = attempt.road.retracer;
-  if (outcome.interrupted) return "interrupted";
-  if (outcome.hung)
-    return who + " showed no frame for " + std::to_string(options_.timeout.count()) + " s and was ended";
-  if (outcome.stopped_early) return "";
-  if (outcome.signal)
-    return who + " was ended by signal " + std::to_string(*outcome.signal) + " (" +
-           strsignal(*outcome.signal) + ")";
-  if (outcome.exit_status.value_or(0) != 0)
-    return who + " ended with status " + std::to_string(*outcome.exit_status);
-  return "";
-}
-
-/// What became of the frames that are missing, as far as the shim tells.
-std::string TraceReplay::missing_text(const Attempt& attempt) const {
-  const RunCounts& counts = attempt.run.counts;
-  std::string text;
-  const auto add = [&text](uint64_t count, const char* what) {
-    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
-  };
-  add(counts.unsupported, "in an unsupported format");
-  add(counts.not_captured, "could not be read back");
-  add(counts.dropped, "dropped (queue full)");
-  if (const std::string end = end_text(attempt); !end.empty()) text += (text.empty() ? "" : ", ") + end;
-  if (text.empty() && attempt.run_folder.empty())
-    text = attempt.outcome.seen.empty() ? attempt.road.retracer + " asked for no presenting function"
-                                        : attempt.road.retracer + " presented nothing";
-  if (text.empty()) text = attempt.road.retracer + " presented " + plural(counts.seen, "frame");
-  return text;
-}
-
-void TraceReplay::judge(const Attempt& attempt) {
-  const RunRecord& run = attempt.run;
-  result_.seconds = attempt.outcome.seconds;
-  const uint64_t captured = run.presented_frames();
-  result_.frames_captured = captured;
-  if (run_options_.triggers != 0 && !attempt.outcome.interrupted) result_.frames_wanted = captured;
-  result_.retracer_lines.clear();
-  const bool complete = captured == result_.frames_wanted && captured > 0 && run_options_.triggers == 0;
-  if (attempt.outcome.interrupted && !complete)
-    return fail("stopped after " + std::to_string(captured) + " of " + plural(result_.frames_wanted, "frame"),
-                ReplayStatus::kInterrupted);
-  if (!attempt.outcome.error.empty()) return fail(attempt.outcome.error);
-  const std::string of = " of " + plural(result_.frames_wanted, "frame");
-  uint64_t mismatched_blocks = 0;
-  for (const FrameStatistics& frame : run.frames)
-    for (const SchemeStatistics& scheme : frame.schemes) mismatched_blocks += scheme.mismatched_blocks;
-  // A window that changes its shape goes on as a new surface, numbered from 0 again: then the numbers asked
-  // for may fall on more or fewer frames than the trace let expect, but each one presented is accounted for.
-  const bool all_accounted = result_.frames_wanted != trace_.frames && run.counts.seen == trace_.frames &&
-                             captured + run.counts.skipped == trace_.frames && captured > 0;
-  if (all_accounted) result_.frames_wanted = captured;
-  if (captured == result_.frames_wanted && captured > 0) {
-    if (mismatched_blocks > 0)
-      return fail("--verify: " + plural(mismatched_blocks, "block") + " differ after decoding");
-    if (trace_.state == TraceState::kTruncated)
-      return fail("truncated after " + plural(trace_.frames, "frame") + ": " + trace_.reason +
-                  "; the frames before were captured");
-    if (const std::string end = end_text(attempt); !end.empty())
-      options_.explain(input_.path + ": " + end + ", after the last frame");
-    result_.status = ReplayStatus::kDone;
-    result_.reason.clear();
+  const std::string folder = run.path;
+  result_.run = std::move(run);
+  if (const auto closed = close_run(end, result_.run); !closed) {
+    fail(closed.error().text);
     return;
   }
-  result_.retracer_lines = attempt.outcome.last_lines;
-  if (run.state == "failed" && !run.reason.empty())
-    return fail("captured " + std::to_string(captured) + of + ": " + run.reason);
-  if (captured == 0)
-    return fail("no frame captured" + of + ": " + missing_text(attempt), ReplayStatus::kNothingCaptured);
-  fail("captured " + std::to_string(captured) + of + ": " + missing_text(attempt));
+  std::error_code code;
+  fs::rename(folder, folder_->run_path(), code);
+  if (code)
+    fail(folder_->run_path() + ": " + code.message());
+  else
+    result_.run.path = folder_->run_path();
 }
 
 }  // namespace tilepress

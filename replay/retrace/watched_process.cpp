@@ -22,7 +22,7 @@ namespace {
 constexpr int kExecFailed = 127;
 constexpr std::chrono::seconds kGrace{1};
 
-/// "NAME=value" strings of our environment with `changes` applied, and pointers to them for execve.
+/// Our environment with `changes` applied, for execve.
 struct Environment {
   explicit Environment(const std::map<std::string, std::string>& changes) {
     for (char** entry = environ; *entry != nullptr; ++entry) {
@@ -38,7 +38,7 @@ struct Environment {
   std::vector<char*> pointers;
 };
 
-/// In the child of a program with threads: system calls only.
+/// Runs in the child of a program with threads: system calls only.
 [[noreturn]] void become(char* const* argv, char* const* environment, pid_t parent, const int (&fds)[3],
                          int report_fd, int kept_fd) {
   setpgid(0, 0);
@@ -83,9 +83,8 @@ WatchedProcess::~WatchedProcess() {
   close_all({output_fd_, errors_fd_});
 }
 
-bool WatchedProcess::start(const std::vector<std::string>& argv,
-                           const std::map<std::string, std::string>& environment, std::string& error,
-                           int kept_fd) {
+Result<void> WatchedProcess::start(const std::vector<std::string>& argv,
+                                   const std::map<std::string, std::string>& environment, int kept_fd) {
   const Environment variables(environment);
   std::vector<char*> words;
   for (const std::string& word : argv) words.push_back(const_cast<char*>(word.c_str()));
@@ -104,10 +103,9 @@ bool WatchedProcess::start(const std::vector<std::string>& argv,
   close_all({nothing, output[1], errors[1], report[1]});
   if (!good || pid_ < 0) {
     close_all({output[0], errors[0], report[0]});
-    error = argv[0] + ": " + std::strerror(failure);
-    return false;
+    return Error{ErrorKind::kSystem, argv[0] + ": " + std::strerror(failure)};
   }
-  setpgid(pid_, pid_);  // here too: whoever comes first, the group exists from now on
+  setpgid(pid_, pid_);  // in both processes: the group exists for both from now on
   ssize_t got = 0;
   while ((got = read(report[0], &failure, sizeof failure)) < 0 && errno == EINTR) {
   }
@@ -115,10 +113,9 @@ bool WatchedProcess::start(const std::vector<std::string>& argv,
   output_fd_ = output[0];
   errors_fd_ = errors[0];
   for (const int fd : {output_fd_, errors_fd_}) fcntl(fd, F_SETFL, O_NONBLOCK);
-  if (got != sizeof failure) return true;
+  if (got != sizeof failure) return {};
   reap(0);
-  error = argv[0] + ": " + std::strerror(failure);
-  return false;
+  return Error{ErrorKind::kSystem, argv[0] + ": " + std::strerror(failure)};
 }
 
 bool WatchedProcess::read_from(int& fd, LastLines& lines) {
@@ -153,7 +150,7 @@ bool WatchedProcess::wait(std::chrono::milliseconds time) {
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
     const bool streams_open = output_fd_ >= 0 || errors_fd_ >= 0;
-    // With both streams closed the process is about to end, and nothing wakes us when it does.
+    // With both streams closed the process is about to end, and no event reports its end.
     const auto slice = std::max<int64_t>(0, streams_open ? left.count() : std::min<int64_t>(left.count(), 5));
     if (streams_open && running()) {
       poll(fds.data(), fds.size(), static_cast<int>(slice));
@@ -179,7 +176,7 @@ void WatchedProcess::end() {
   if (!running()) return;
   send(SIGTERM);
   const bool ended = wait(kGrace);
-  kill(-pid_, SIGKILL);  // also what the process left of its group
+  kill(-pid_, SIGKILL);  // the rest of the group too
   if (!ended) reap(0);
 }
 

@@ -1,4 +1,4 @@
-// Watched process: a program in the background whose output is read and which can be ended.
+// Watched process: a background program whose output is read and which can be ended.
 #pragma once
 
 #include <sys/types.h>
@@ -10,9 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "tilepress/result.h"
+
 namespace tilepress {
 
-/// Whole lines of a stream, the last ones only; endless lines are cut.
+/// The last lines of a stream. Long lines are cut.
 class LastLines {
  public:
   void add(const char* bytes, size_t count);
@@ -24,23 +26,23 @@ class LastLines {
   bool open_ = false;  ///< the last line has no end yet
 };
 
-/// The process leads a group of its own and dies with the thread that started it. Not thread-safe.
+/// The process leads a process group and dies with the thread that started it. Not thread-safe.
 class WatchedProcess {
  public:
   WatchedProcess() = default;
   WatchedProcess(const WatchedProcess&) = delete;
   WatchedProcess& operator=(const WatchedProcess&) = delete;
-  ~WatchedProcess();  ///< kills it if it still runs
+  ~WatchedProcess();  ///< kills the group if the process still runs
 
-  /// An empty value takes the variable away. `kept_fd`, if any, stays open under its number. argv[0] is a
-  /// path. False and one line in `error` if the program cannot be started.
-  bool start(const std::vector<std::string>& argv, const std::map<std::string, std::string>& environment,
-             std::string& error, int kept_fd = -1);
-  /// Reads output until the process has ended or the time is over. True once it has ended.
+  /// Starts argv, whose first word is a path. `environment` is added to ours; an empty value removes the
+  /// variable. `kept_fd` stays open in the process unless it is -1. Error: kSystem, the path first.
+  Result<void> start(const std::vector<std::string>& argv,
+                     const std::map<std::string, std::string>& environment, int kept_fd = -1);
+  /// Reads output until the process has ended or the time is over. Returns true once it has ended.
   bool wait(std::chrono::milliseconds time);
   /// Sends a signal to the group.
   void send(int signal);
-  /// Ends the group: SIGTERM, and SIGKILL where that does not help within a second.
+  /// Ends the group with SIGTERM, and with SIGKILL a second later.
   void end();
 
   pid_t pid() const { return pid_; }

@@ -1,16 +1,17 @@
-// Brotli container: one brotli stream, without any signature.
+// Brotli container: one brotli stream without a signature.
 #include <brotli/decode.h>
 
 #include <algorithm>
 #include <vector>
 
 #include "trace_container.h"
+#include "trace_fault.h"
 
 namespace tilepress {
 namespace {
 
-/// Little at first, then twice as much each time, for who wants to see no more than how a file begins: the
-/// decoder hands out what it has when its input is used up.
+/// The first input is small and each one after it twice as large: the decoder returns output when its input
+/// is used up, and begins_as_trace() needs only the first bytes.
 constexpr size_t kFirstInputBytes = 4 << 10, kInputBytes = 64 << 10;
 constexpr size_t kOutputBytes = 256 << 10;
 
@@ -25,29 +26,23 @@ class BrotliContainer : public TraceContainer {
   bool has_signature() const override { return false; }
 
   std::span<const uint8_t> next() override {
-    if (end() != ContainerEnd::kNotReached) return {};
-    if (finished_) return finish(ContainerEnd::kClean, "");
     uint8_t* out = plain_.data();
     size_t room = plain_.size();
-    for (;;) {
+    while (!finished_ && !damaged_ && !cut_off_) {
       const BrotliDecoderResult result =
           BrotliDecoderDecompressStream(state_.get(), &available_, &from_, &room, &out, nullptr);
-      if (result == BROTLI_DECODER_RESULT_SUCCESS) finished_ = true;
-      if (result == BROTLI_DECODER_RESULT_ERROR) fault_ = ContainerEnd::kCorrupt;
+      finished_ = result == BROTLI_DECODER_RESULT_SUCCESS;
+      damaged_ = result == BROTLI_DECODER_RESULT_ERROR;
       if (result != BROTLI_DECODER_RESULT_NEEDS_MORE_INPUT || room < plain_.size()) break;
       if (from_ != nullptr) packed_.resize(std::min(2 * packed_.size(), kInputBytes));
       available_ = input_.read(packed_);
       from_ = packed_.data();
-      if (available_ == 0) {
-        fault_ = ContainerEnd::kTruncated;
-        break;
-      }
+      cut_off_ = available_ == 0;
     }
     const size_t length = plain_.size() - room;
-    if (length > 0) return {plain_.data(), length};
-    if (fault_ == ContainerEnd::kCorrupt) return finish(fault_, "the brotli stream is damaged");
-    if (fault_ == ContainerEnd::kTruncated) return finish(fault_, "the brotli stream is cut off");
-    return finish(ContainerEnd::kClean, "");
+    if (length == 0 && damaged_) fail_corrupt("the brotli stream is damaged");
+    if (length == 0 && cut_off_) fail_truncated("the brotli stream is cut off");
+    return {plain_.data(), length};
   }
 
  private:
@@ -56,8 +51,7 @@ class BrotliContainer : public TraceContainer {
   std::vector<uint8_t> packed_, plain_;
   const uint8_t* from_ = nullptr;
   size_t available_ = 0;
-  bool finished_ = false;
-  ContainerEnd fault_ = ContainerEnd::kNotReached;
+  bool finished_ = false, damaged_ = false, cut_off_ = false;
 };
 
 }  // namespace

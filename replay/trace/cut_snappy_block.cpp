@@ -1,4 +1,4 @@
-// Cut snappy block: the elements of snappy's format_description.txt, one after the other.
+// Cut snappy block: the elements of snappy's format_description.txt, one by one.
 #include "cut_snappy_block.h"
 
 #include <algorithm>

@@ -1,9 +1,10 @@
-// Gzip container: what apitrace wrote before it had snappy.
+// Gzip container: old recordings, from before apitrace used snappy.
 #include <zlib.h>
 
 #include <vector>
 
 #include "trace_container.h"
+#include "trace_fault.h"
 
 namespace tilepress {
 namespace {
@@ -23,36 +24,31 @@ class GzipContainer : public TraceContainer {
   const char* name() const override { return "gzip"; }
 
   std::span<const uint8_t> next() override {
-    if (end() != ContainerEnd::kNotReached) return {};
-    if (!ready_) return finish(ContainerEnd::kCorrupt, "zlib cannot start");
+    if (!ready_) fail_corrupt("zlib cannot start");
     stream_.next_out = plain_.data();
     stream_.avail_out = static_cast<uInt>(plain_.size());
-    while (stream_.avail_out > 0 && fault_ == ContainerEnd::kNotReached && !finished_) {
+    while (stream_.avail_out > 0 && !finished_ && !damaged_ && !cut_off_) {
       if (stream_.avail_in == 0) {
         stream_.avail_in = static_cast<uInt>(input_.read(packed_));
         stream_.next_in = packed_.data();
-        if (stream_.avail_in == 0) {
-          fault_ = ContainerEnd::kTruncated;
-          break;
-        }
+        cut_off_ = stream_.avail_in == 0;
+        if (cut_off_) break;
       }
       const int result = inflate(&stream_, Z_NO_FLUSH);
-      if (result == Z_STREAM_END) finished_ = true;
-      if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR) fault_ = ContainerEnd::kCorrupt;
+      finished_ = result == Z_STREAM_END;
+      damaged_ = result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR;
     }
     const size_t length = plain_.size() - stream_.avail_out;
-    if (length > 0) return {plain_.data(), length};
-    if (fault_ == ContainerEnd::kCorrupt) return finish(fault_, "the gzip stream is damaged");
-    if (fault_ == ContainerEnd::kTruncated) return finish(fault_, "the gzip stream is cut off");
-    return finish(ContainerEnd::kClean, "");
+    if (length == 0 && damaged_) fail_corrupt("the gzip stream is damaged");
+    if (length == 0 && cut_off_) fail_truncated("the gzip stream is cut off");
+    return {plain_.data(), length};
   }
 
  private:
   TraceInput& input_;
   std::vector<uint8_t> packed_, plain_;
   z_stream stream_{};
-  bool ready_ = false, finished_ = false;
-  ContainerEnd fault_ = ContainerEnd::kNotReached;
+  bool ready_ = false, finished_ = false, damaged_ = false, cut_off_ = false;
 };
 
 }  // namespace

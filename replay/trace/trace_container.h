@@ -4,46 +4,29 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 
+#include "tilepress/result.h"
 #include "trace_input.h"
 
 namespace tilepress {
 
-/// What follows the last piece.
-enum class ContainerEnd : uint8_t { kNotReached, kClean, kTruncated, kCorrupt };
-
-/// Lengths in the file are never trusted: a piece is at most kMaxPieceBytes, whatever the file claims.
+/// No length in the file is trusted: a piece has at most kMaxPieceBytes, whatever the file claims.
 class TraceContainer {
  public:
   static constexpr uint32_t kMaxPieceBytes = 16u << 20;
 
   virtual ~TraceContainer() = default;
-  /// The next piece of the stream, valid until the next call; empty once end() is not kNotReached.
+  /// Returns the next piece of the stream, valid until the next call; empty at the end of the file. Throws
+  /// TraceFault where the file is cut off or damaged, after all pieces before that place.
   virtual std::span<const uint8_t> next() = 0;
   virtual const char* name() const = 0;
-  /// False where the file carries no signature, so that damage and another kind of file look alike.
+  /// False if the format has no signature, so that a damaged file looks like a file of another kind.
   virtual bool has_signature() const { return true; }
-
-  ContainerEnd end() const { return end_; }
-  /// One line, once the end is kTruncated or kCorrupt.
-  const std::string& reason() const { return reason_; }
-
- protected:
-  std::span<const uint8_t> finish(ContainerEnd end, std::string reason) {
-    end_ = end;
-    reason_ = std::move(reason);
-    return {};
-  }
-
- private:
-  ContainerEnd end_ = ContainerEnd::kNotReached;
-  std::string reason_;
 };
 
-/// Recognises the container by its first bytes; `input` must outlive it. Null and one line in `error` if the
-/// file is empty or of a kind that is not read here.
-std::unique_ptr<TraceContainer> open_container(TraceInput& input, std::string& error);
+/// Recognises the container by its first bytes. `input` must outlive the container. Error: kUnsupported if
+/// the file is empty or its container cannot be read.
+Result<std::unique_ptr<TraceContainer>> open_container(TraceInput& input);
 
 std::unique_ptr<TraceContainer> open_snappy_container(TraceInput& input);
 std::unique_ptr<TraceContainer> open_brotli_container(TraceInput& input);

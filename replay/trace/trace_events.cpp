@@ -56,13 +56,13 @@ void TraceEvents::read_enter() {
 
 bool TraceEvents::read_leave(TraceCall& call) {
   const auto found = open_.find(stream_.read_uint());
-  if (found == open_.end()) {  // a trace that was cut at its front has such
+  if (found == open_.end()) {  // the trace lacks its beginning
     TraceCall stray;
     read_details(stray, false);
     return false;
   }
   call = std::move(found->second);
-  open_.erase(found);  // first: a call whose return is cut off is lost to a retracer
+  open_.erase(found);  // before the details: a retracer drops a call whose return is cut off
   read_details(call, functions_[call.function].watched);
   return true;
 }

@@ -28,7 +28,7 @@ struct TraceCall {
   TraceValue result;
 };
 
-/// Calls come in the order in which they returned. Throws TraceFault at damage.
+/// Calls come in the order in which they returned. Every function that reads throws TraceFault at damage.
 class TraceEvents {
  public:
   static constexpr uint64_t kNewestVersion = 6;
@@ -43,9 +43,10 @@ class TraceEvents {
   using Watch = std::function<bool(std::string_view name)>;
   TraceEvents(TraceStream& stream, Watch watch) : stream_(stream), watch_(std::move(watch)) {}
 
-  /// Version, semantic version and properties. False if the version is newer than kNewestVersion.
+  /// Reads version, semantic version and properties. Returns false if the version is newer than
+  /// kNewestVersion.
   bool read_header();
-  /// The next call that returned; false at the end of the stream.
+  /// Reads up to the next call that returned. Returns false at the end of the stream.
   bool next(TraceCall& call);
 
   uint64_t version() const { return version_; }
@@ -53,8 +54,8 @@ class TraceEvents {
   const std::vector<std::pair<std::string, std::string>>& properties() const { return properties_; }
   const TraceFunction& function(uint32_t index) const { return functions_[index]; }
   uint64_t calls_entered() const { return calls_entered_; }
-  /// Calls entered that have not returned, in the order in which they were entered. At the end of a trace a
-  /// retracer repeats these too.
+  /// Calls that have not returned, in the order in which they were entered. A retracer repeats them too, at
+  /// the end of the trace.
   std::vector<TraceCall> open_calls() const;
 
  private:

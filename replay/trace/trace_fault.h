@@ -1,4 +1,4 @@
-// Trace fault: why reading a trace stopped before its end.
+// Trace fault: why the trace reader stopped before the end of a trace.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace tilepress {
 
-/// Thrown inside the trace reader and caught by summarize_trace(); never leaves replay/.
+/// Thrown by the parts of the trace reader, at any depth, and caught by its public functions, which return it
+/// as the summary's state.
 struct TraceFault {
   TraceState state;  ///< kTruncated or kCorrupt
   std::string reason;
@@ -15,6 +16,9 @@ struct TraceFault {
 
 [[noreturn]] inline void fail_corrupt(std::string reason) {
   throw TraceFault{TraceState::kCorrupt, std::move(reason)};
+}
+[[noreturn]] inline void fail_truncated(std::string reason) {
+  throw TraceFault{TraceState::kTruncated, std::move(reason)};
 }
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Trace input: the bytes of a trace file, from disk or from memory.
+// Trace input: read() of a descriptor or of a span.
 #include "trace_input.h"
 
 #include <fcntl.h>
@@ -8,32 +8,29 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "trace_fault.h"
 
 namespace tilepress {
 
-TraceInput::TraceInput(const std::string& path, std::string& error) : size_(UINT64_MAX) {
-  // O_NONBLOCK: opening a named pipe nobody writes to must not hang.
+Result<TraceInput> TraceInput::open(const std::string& path) {
+  // O_NONBLOCK: opening a named pipe without a writer must not hang.
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (fd < 0) {
-    error = std::strerror(errno);
-    return;
-  }
+  TraceInput input(fd, 0);
   struct stat status;
-  if (::fstat(fd, &status) != 0) {
-    error = std::strerror(errno);
-  } else if (S_ISDIR(status.st_mode)) {
-    error = "is a directory, not a trace";
-  } else if (!S_ISREG(status.st_mode)) {
-    error = "is not a regular file";
-  } else {
-    fd_ = fd;
-    size_ = static_cast<uint64_t>(status.st_size);
-    return;
-  }
-  ::close(fd);
+  if (fd < 0 || ::fstat(fd, &status) != 0) return Error{ErrorKind::kFile, std::strerror(errno)};
+  if (S_ISDIR(status.st_mode)) return Error{ErrorKind::kUnsupported, "is a directory, not a trace"};
+  if (!S_ISREG(status.st_mode)) return Error{ErrorKind::kUnsupported, "is not a regular file"};
+  input.size_ = static_cast<uint64_t>(status.st_size);
+  return input;
 }
+
+TraceInput::TraceInput(TraceInput&& other) noexcept
+    : memory_(other.memory_),
+      fd_(std::exchange(other.fd_, -1)),
+      size_(other.size_),
+      position_(other.position_) {}
 
 TraceInput::~TraceInput() {
   if (fd_ >= 0) ::close(fd_);
@@ -48,8 +45,7 @@ size_t TraceInput::read(std::span<uint8_t> to) {
   while (fd_ >= 0 && filled < to.size()) {
     const ssize_t got = ::read(fd_, to.data() + filled, to.size() - filled);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0)
-      throw TraceFault{TraceState::kTruncated, std::string("cannot be read: ") + std::strerror(errno)};
+    if (got < 0) fail_truncated(std::string("cannot be read: ") + std::strerror(errno));
     if (got == 0) break;
     filled += static_cast<size_t>(got);
   }

@@ -1,4 +1,4 @@
-// Trace stream: bytes, integers and strings out of a container.
+// Trace stream: one piece of the container at a time.
 #include "trace_stream.h"
 
 #include <algorithm>
@@ -18,14 +18,11 @@ bool TraceStream::refill() {
                    " bytes, far more than its size justifies");
     return true;
   }
-  if (container_.end() == ContainerEnd::kCorrupt) fail_corrupt(container_.reason());
-  if (container_.end() == ContainerEnd::kTruncated)
-    throw TraceFault{TraceState::kTruncated, container_.reason()};
   return false;
 }
 
 void TraceStream::stop_inside() {
-  throw TraceFault{TraceState::kTruncated, "the stream ends inside an event"};
+  fail_truncated("the stream ends inside an event");
 }
 
 uint64_t TraceStream::read_long_uint(uint8_t first) {

@@ -1,35 +1,34 @@
-// Trace stream: bytes, integers and strings out of a container, with the offset where each stood.
+// Trace stream: bytes, integers and strings from a container, and the offset of each.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string>
 
-#include "tilepress/trace_summary.h"
 #include "trace_container.h"
 
 namespace tilepress {
 
-/// Every read throws TraceFault where the stream ends or is damaged.
+/// Every read throws TraceFault where the stream is cut off or damaged.
 class TraceStream {
  public:
   TraceStream(TraceContainer& container, uint64_t max_bytes) : container_(container), max_bytes_(max_bytes) {}
 
   /// Bytes consumed so far.
   uint64_t offset() const { return piece_offset_ + static_cast<uint64_t>(at_ - piece_begin_); }
-  /// True at the regular end of the stream; throws if the container is damaged or cut off here.
+  /// Returns true at the regular end of the stream.
   bool at_end() { return at_ == piece_end_ && !refill(); }
 
   uint8_t read_byte() {
     if (at_ == piece_end_ && !refill()) stop_inside();
     return *at_++;
   }
-  /// 7 bits a byte, the lowest first; bit 7 says that more follow.
+  /// 7 bits a byte, the lowest first. Bit 7 is set if another byte follows.
   uint64_t read_uint() {
     const uint8_t first = read_byte();
     return first < 0x80 ? first : read_long_uint(first);
   }
-  /// Length and bytes; keeps the first `kept_bytes` and skips the rest.
+  /// Reads a length and as many bytes. Returns the first `kept_bytes` of them and skips the rest.
   std::string read_string(uint64_t kept_bytes);
   void skip_string() { skip(read_uint()); }
   void skip(uint64_t bytes);

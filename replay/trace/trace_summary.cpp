@@ -1,4 +1,4 @@
-// Trace summary: reads a whole trace once and tells what it holds.
+// Trace summary: container, stream, events and survey, put together.
 #include "tilepress/trace_summary.h"
 
 #include <algorithm>
@@ -13,50 +13,64 @@ namespace {
 
 constexpr const char* kNoTrace = "is not an apitrace trace";
 
-std::optional<TraceSummary> summarize(TraceInput& input, std::string& error, const TraceLimits& limits) {
-  TraceSummary summary;
-  summary.file_bytes = input.size();
-  const std::unique_ptr<TraceContainer> container = open_container(input, error);
-  if (!container) return std::nullopt;
-  summary.container = container->name();
+/// The longest event stream that a file of `file_bytes` may unpack to.
+uint64_t stream_limit(uint64_t file_bytes, const TraceLimits& limits) {
   const uint64_t expanded =
-      input.size() > UINT64_MAX / limits.max_expansion ? UINT64_MAX : input.size() * limits.max_expansion;
-  TraceStream stream(*container, std::max(limits.free_stream_bytes, expanded));
+      file_bytes > UINT64_MAX / limits.max_expansion ? UINT64_MAX : file_bytes * limits.max_expansion;
+  return std::max(limits.free_stream_bytes, expanded);
+}
+
+void note_fault(const TraceFault& fault, TraceSummary& summary) {
+  summary.state = fault.state;
+  summary.reason = fault.reason;
+}
+
+/// Shows the calls of the trace to `survey`: those that returned, then those that did not, which a retracer
+/// repeats too. Throws TraceFault at damage; a cut is noted in `summary`.
+void survey_calls(TraceEvents& events, TraceSurvey& survey, TraceSummary& summary) {
+  const auto see = [&](const TraceCall& call) { survey.see(call, events.function(call.function)); };
+  try {
+    for (TraceCall call; events.next(call);) see(call);
+  } catch (const TraceFault& fault) {
+    if (fault.state == TraceState::kCorrupt) throw;
+    note_fault(fault, summary);
+  }
+  for (const TraceCall& call : events.open_calls()) see(call);
+}
+
+Error version_error(uint64_t version, bool has_signature) {
+  // Without a signature, any file may decompress to something by chance.
+  if (!has_signature && version > 100) return {ErrorKind::kUnsupported, kNoTrace};
+  return {ErrorKind::kUnsupported, "has trace format version " + std::to_string(version) +
+                                       "; versions up to " + std::to_string(TraceEvents::kNewestVersion) +
+                                       " can be read"};
+}
+
+Result<TraceSummary> summarize(TraceInput& input, const TraceLimits& limits) {
+  const auto opened = open_container(input);
+  if (!opened) return opened.error();
+  TraceContainer& container = **opened;
+  TraceStream stream(container, stream_limit(input.size(), limits));
   TraceSurvey survey;
   TraceEvents events(stream, [&survey](std::string_view name) {
     survey.see_function(name);
     return TraceSurvey::watches(name);
   });
+  TraceSummary summary;
   bool header_read = false;
   try {
-    if (!events.read_header()) {
-      // Without a signature, any file may decompress to something by chance.
-      error = !container->has_signature() && events.version() > 100
-                  ? kNoTrace
-                  : "has trace format version " + std::to_string(events.version()) + "; versions up to " +
-                        std::to_string(TraceEvents::kNewestVersion) + " can be read";
-      return std::nullopt;
-    }
-    header_read = true;
-    TraceCall call;
-    try {
-      while (events.next(call)) survey.see(call, events.function(call.function));
-    } catch (const TraceFault& fault) {
-      if (fault.state == TraceState::kCorrupt) throw;
-      summary.state = fault.state;
-      summary.reason = fault.reason;
-    }
-    for (const TraceCall& open : events.open_calls()) survey.see(open, events.function(open.function));
+    header_read = events.read_header();
+    if (!header_read) return version_error(events.version(), container.has_signature());
+    survey_calls(events, survey, summary);
   } catch (const TraceFault& fault) {
-    summary.state = fault.state;
-    summary.reason = fault.reason;
+    note_fault(fault, summary);
   }
+  const bool begun = header_read && events.calls_entered() > 0;
+  if (!container.has_signature() && !begun && summary.state != TraceState::kComplete)
+    return Error{ErrorKind::kUnsupported, kNoTrace};
+  summary.file_bytes = input.size();
+  summary.container = container.name();
   summary.offset = summary.stream_bytes = stream.offset();
-  if (!container->has_signature() && (!header_read || events.calls_entered() == 0) &&
-      summary.state != TraceState::kComplete) {
-    error = kNoTrace;
-    return std::nullopt;
-  }
   summary.version = events.version();
   summary.semantic_version = events.semantic_version();
   summary.properties = events.properties();
@@ -70,32 +84,28 @@ std::optional<TraceSummary> summarize(TraceInput& input, std::string& error, con
 
 }  // namespace
 
-std::optional<TraceSummary> summarize_trace(const std::string& path, std::string& error,
-                                            const TraceLimits& limits) {
-  TraceInput input(path, error);
-  if (!input.is_open()) return std::nullopt;
+Result<TraceSummary> summarize_trace(const std::string& path, const TraceLimits& limits) {
+  Result<TraceInput> input = TraceInput::open(path);
+  if (!input) return input.error();
   try {
-    return summarize(input, error, limits);
+    return summarize(*input, limits);
   } catch (const TraceFault& fault) {  // the disk failed within the first bytes
-    error = fault.reason;
-    return std::nullopt;
+    return Error{ErrorKind::kFile, fault.reason};
   }
 }
 
-std::optional<TraceSummary> summarize_trace(std::span<const uint8_t> file, std::string& error,
-                                            const TraceLimits& limits) {
+Result<TraceSummary> summarize_trace(std::span<const uint8_t> file, const TraceLimits& limits) {
   TraceInput input(file);
-  return summarize(input, error, limits);
+  return summarize(input, limits);
 }
 
 bool begins_as_trace(const std::string& path) {
-  std::string error;
-  TraceInput input(path, error);
-  if (!input.is_open()) return false;
+  Result<TraceInput> input = TraceInput::open(path);
+  if (!input) return false;
   try {
-    const std::unique_ptr<TraceContainer> container = open_container(input, error);
+    const auto container = open_container(*input);
     if (!container) return false;
-    TraceStream stream(*container, TraceLimits().free_stream_bytes);
+    TraceStream stream(**container, TraceLimits().free_stream_bytes);
     TraceEvents events(stream, [](std::string_view) { return false; });
     TraceCall call;
     return events.read_header() && events.next(call);

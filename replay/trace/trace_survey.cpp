@@ -1,4 +1,4 @@
-// Trace survey: counts frames and learns sizes and context versions from the recorded calls.
+// Trace survey: a handler per recorded function.
 #include "trace_survey.h"
 
 #include <algorithm>
@@ -28,6 +28,10 @@ uint64_t handle(const TraceCall& call, size_t position) {
   return static_cast<uint64_t>(argument(call, position));
 }
 
+uint64_t result_handle(const TraceCall& call) {
+  return static_cast<uint64_t>(call.result.as_number());
+}
+
 /// Looks `key` up in a list of key, value, key, value, … that argument `position` holds.
 int64_t attribute(const TraceCall& call, size_t position, int64_t key, int64_t otherwise) {
   if (position >= call.arguments.size()) return otherwise;
@@ -45,36 +49,77 @@ std::string versioned(const char* api, int64_t major, int64_t minor) {
 
 const std::map<std::string_view, TraceSurvey::Handler>& TraceSurvey::handlers() {
   using S = TraceSurvey;
-  // Presentations are those that a retracer repeats with a swap of its own: glXSwapBuffersMscOML or
-  // glFrameTerminatorGREMEDY end a frame in apitrace's eyes, but nothing reaches the screen in a replay.
+  using Call = const TraceCall&;
+  const Handler present_first = [](S& s, Call call, Thread& thread) { s.present(handle(call, 0), thread); };
+  const Handler present_second = [](S& s, Call call, Thread& thread) { s.present(handle(call, 1), thread); };
+  const Handler read_and_draw_current = [](S& s, Call call, Thread& thread) {
+    s.make_current(thread, handle(call, 1), handle(call, 3), call);
+  };
+  const Handler glx_create_context = [](S& s, Call call, Thread&) { s.create_context(call, "OpenGL"); };
+  const Handler bind_framebuffer = [](S& s, Call call, Thread& thread) {
+    const int64_t target = argument(call, 0);
+    if (target == GL_FRAMEBUFFER || target == GL_DRAW_FRAMEBUFFER)
+      s.context(thread.context).draw_framebuffer = handle(call, 1);
+  };
+  // A presentation is a call that a retracer repeats with a swap. apitrace also ends a frame at
+  // glXSwapBuffersMscOML and glFrameTerminatorGREMEDY, but these present nothing in a replay.
   static const std::map<std::string_view, Handler> kHandlers = {
-      {"eglSwapBuffers", &S::present_second},
-      {"eglSwapBuffersWithDamageEXT", &S::present_second},
-      {"eglSwapBuffersWithDamageKHR", &S::present_second},
-      {"glXSwapBuffers", &S::present_second},
-      {"wglSwapBuffers", &S::present_first},
-      {"wglSwapLayerBuffers", &S::present_first},
-      {"CGLFlushDrawable", &S::present_first},
-      {"eglMakeCurrent", &S::egl_make_current},
-      {"glXMakeCurrent", &S::glx_make_current},
-      {"glXMakeContextCurrent", &S::glx_make_context_current},
-      {"glXMakeCurrentReadSGI", &S::glx_make_context_current},
-      {"wglMakeCurrent", &S::wgl_make_current},
-      {"eglBindAPI", &S::egl_bind_api},
-      {"eglCreateContext", &S::egl_create_context},
-      {"eglCreatePbufferSurface", &S::egl_create_pbuffer},
-      {"eglQuerySurface", &S::egl_query_surface},
-      {"glXCreateContext", &S::glx_create_context},
-      {"glXCreateNewContext", &S::glx_create_context},
-      {"glXCreateContextAttribsARB", &S::glx_create_context_attributes},
-      {"glXCreatePbuffer", &S::glx_create_pbuffer},
-      {"glXQueryDrawable", &S::glx_query_drawable},
-      {"glViewport", &S::gl_viewport},
-      {"glBindFramebuffer", &S::gl_bind_framebuffer},
-      {"glBindFramebufferEXT", &S::gl_bind_framebuffer},
-      {"glBindFramebufferOES", &S::gl_bind_framebuffer},
-      {"glGetString", &S::gl_get_string},
-      {"glGetInteger64v", &S::gl_get_integer64},
+      {"eglSwapBuffers", present_second},
+      {"eglSwapBuffersWithDamageEXT", present_second},
+      {"eglSwapBuffersWithDamageKHR", present_second},
+      {"glXSwapBuffers", present_second},
+      {"wglSwapBuffers", present_first},
+      {"wglSwapLayerBuffers", present_first},
+      {"CGLFlushDrawable", present_first},
+      {"eglMakeCurrent", read_and_draw_current},
+      {"glXMakeContextCurrent", read_and_draw_current},
+      {"glXMakeCurrentReadSGI", read_and_draw_current},
+      {"glXMakeCurrent",
+       [](S& s, Call call, Thread& thread) {
+         s.make_current(thread, handle(call, 1), handle(call, 2), call);
+       }},
+      {"wglMakeCurrent",
+       [](S& s, Call call, Thread& thread) {
+         s.make_current(thread, handle(call, 0), handle(call, 1), call);
+       }},
+      {"eglBindAPI", [](S&, Call call, Thread& thread) { thread.bound_api = handle(call, 0); }},
+      {"eglCreateContext",
+       [](S& s, Call call, Thread& thread) {
+         const bool desktop = thread.bound_api == static_cast<uint64_t>(EGL_OPENGL_API);
+         s.create_context(call, versioned(desktop ? "OpenGL" : "OpenGL ES",
+                                          attribute(call, 3, EGL_CONTEXT_MAJOR_VERSION, 1),
+                                          attribute(call, 3, EGL_CONTEXT_MINOR_VERSION, 0)));
+       }},
+      {"glXCreateContext", glx_create_context},
+      {"glXCreateNewContext", glx_create_context},
+      {"glXCreateContextAttribsARB",
+       [](S& s, Call call, Thread&) {
+         const bool es = (attribute(call, 4, GLX_CONTEXT_PROFILE_MASK, 0) & GLX_CONTEXT_ES_PROFILE_BIT) != 0;
+         s.create_context(
+             call, versioned(es ? "OpenGL ES" : "OpenGL", attribute(call, 4, GLX_CONTEXT_MAJOR_VERSION, 1),
+                             attribute(call, 4, GLX_CONTEXT_MINOR_VERSION, 0)));
+       }},
+      {"eglCreatePbufferSurface",
+       [](S& s, Call call, Thread&) {
+         s.resize(result_handle(call), attribute(call, 2, EGL_WIDTH, 0), attribute(call, 2, EGL_HEIGHT, 0));
+       }},
+      {"glXCreatePbuffer",
+       [](S& s, Call call, Thread&) {
+         s.resize(result_handle(call), attribute(call, 2, GLX_PBUFFER_WIDTH, 0),
+                  attribute(call, 2, GLX_PBUFFER_HEIGHT, 0));
+       }},
+      {"eglQuerySurface", [](S& s, Call call, Thread&) { s.query_size(call, EGL_WIDTH, EGL_HEIGHT); }},
+      {"glXQueryDrawable", [](S& s, Call call, Thread&) { s.query_size(call, GLX_WIDTH, GLX_HEIGHT); }},
+      {"glViewport", [](S& s, Call call, Thread& thread) { s.set_viewport(call, thread); }},
+      {"glBindFramebuffer", bind_framebuffer},
+      {"glBindFramebufferEXT", bind_framebuffer},
+      {"glBindFramebufferOES", bind_framebuffer},
+      {"glGetString",
+       [](S& s, Call call, Thread&) {
+         if (argument(call, 0) == GL_VERSION) s.gl_version_ = call.result.text;
+         if (argument(call, 0) == GL_RENDERER) s.gl_renderer_ = call.result.text;
+       }},
+      {"glGetInteger64v", [](S& s, Call call, Thread&) { s.note_time(call); }},
   };
   return kHandlers;
 }
@@ -100,7 +145,7 @@ void TraceSurvey::see(const TraceCall& call, const TraceFunction& function) {
   const auto thread = threads_.try_emplace(call.thread).first;
   if (threads_.size() > kMaxHandles) fail_corrupt("too many threads");
   if (!function.watched) return;
-  (this->*handlers().at(function.name))(call, thread->second);
+  handlers().at(function.name)(*this, call, thread->second);
 }
 
 TraceSurface& TraceSurvey::surface(uint64_t id) {
@@ -123,58 +168,15 @@ void TraceSurvey::present(uint64_t id, Thread& thread) {
   context(thread.context).presented = true;
 }
 
-void TraceSurvey::present_second(const TraceCall& call, Thread& thread) {
-  present(handle(call, 1), thread);
-}
-void TraceSurvey::present_first(const TraceCall& call, Thread& thread) {
-  present(handle(call, 0), thread);
-}
-
 void TraceSurvey::make_current(Thread& thread, uint64_t surface_id, uint64_t context_id,
                                const TraceCall& call) {
-  if (call.result.as_number(1) == 0) return;  // refused: what was current stays so
+  if (call.result.as_number(1) == 0) return;  // the call failed and changed nothing
   thread.surface = surface_id;
   thread.context = context_id;
 }
 
-void TraceSurvey::egl_make_current(const TraceCall& call, Thread& thread) {
-  make_current(thread, handle(call, 1), handle(call, 3), call);
-}
-void TraceSurvey::glx_make_current(const TraceCall& call, Thread& thread) {
-  make_current(thread, handle(call, 1), handle(call, 2), call);
-}
-void TraceSurvey::glx_make_context_current(const TraceCall& call, Thread& thread) {
-  make_current(thread, handle(call, 1), handle(call, 3), call);
-}
-void TraceSurvey::wgl_make_current(const TraceCall& call, Thread& thread) {
-  make_current(thread, handle(call, 0), handle(call, 1), call);
-}
-
-void TraceSurvey::egl_bind_api(const TraceCall& call, Thread& thread) {
-  thread.bound_api = handle(call, 0);
-}
-
-void TraceSurvey::egl_create_context(const TraceCall& call, Thread& thread) {
-  const auto id = static_cast<uint64_t>(call.result.as_number());
-  if (id == 0) return;
-  const bool desktop = thread.bound_api == static_cast<uint64_t>(EGL_OPENGL_API);
-  context(id).client_api =
-      versioned(desktop ? "OpenGL" : "OpenGL ES", attribute(call, 3, EGL_CONTEXT_MAJOR_VERSION, 1),
-                attribute(call, 3, EGL_CONTEXT_MINOR_VERSION, 0));
-}
-
-void TraceSurvey::glx_create_context(const TraceCall& call, Thread&) {
-  const auto id = static_cast<uint64_t>(call.result.as_number());
-  if (id != 0) context(id).client_api = "OpenGL";
-}
-
-void TraceSurvey::glx_create_context_attributes(const TraceCall& call, Thread&) {
-  const auto id = static_cast<uint64_t>(call.result.as_number());
-  if (id == 0) return;
-  const bool es = (attribute(call, 4, GLX_CONTEXT_PROFILE_MASK, 0) & GLX_CONTEXT_ES_PROFILE_BIT) != 0;
-  context(id).client_api =
-      versioned(es ? "OpenGL ES" : "OpenGL", attribute(call, 4, GLX_CONTEXT_MAJOR_VERSION, 1),
-                attribute(call, 4, GLX_CONTEXT_MINOR_VERSION, 0));
+void TraceSurvey::create_context(const TraceCall& call, std::string client_api) {
+  if (const uint64_t id = result_handle(call); id != 0) context(id).client_api = std::move(client_api);
 }
 
 void TraceSurvey::resize(uint64_t id, int64_t width, int64_t height) {
@@ -185,51 +187,24 @@ void TraceSurvey::resize(uint64_t id, int64_t width, int64_t height) {
   target.height = std::max(target.height, static_cast<uint32_t>(height));
 }
 
-void TraceSurvey::egl_create_pbuffer(const TraceCall& call, Thread&) {
-  resize(static_cast<uint64_t>(call.result.as_number()), attribute(call, 2, EGL_WIDTH, 0),
-         attribute(call, 2, EGL_HEIGHT, 0));
+void TraceSurvey::query_size(const TraceCall& call, int64_t width_name, int64_t height_name) {
+  const int64_t name = argument(call, 2), value = argument(call, 3);
+  if (name == width_name) resize(handle(call, 1), value, 1);
+  if (name == height_name) resize(handle(call, 1), 1, value);
 }
 
-void TraceSurvey::glx_create_pbuffer(const TraceCall& call, Thread&) {
-  resize(static_cast<uint64_t>(call.result.as_number()), attribute(call, 2, GLX_PBUFFER_WIDTH, 0),
-         attribute(call, 2, GLX_PBUFFER_HEIGHT, 0));
-}
-
-void TraceSurvey::egl_query_surface(const TraceCall& call, Thread&) {
-  const int64_t value = argument(call, 3);
-  if (argument(call, 2) == EGL_WIDTH) resize(handle(call, 1), value, 1);
-  if (argument(call, 2) == EGL_HEIGHT) resize(handle(call, 1), 1, value);
-}
-
-void TraceSurvey::glx_query_drawable(const TraceCall& call, Thread&) {
-  const int64_t value = argument(call, 3);
-  if (argument(call, 2) == GLX_WIDTH) resize(handle(call, 1), value, 1);
-  if (argument(call, 2) == GLX_HEIGHT) resize(handle(call, 1), 1, value);
-}
-
-void TraceSurvey::gl_viewport(const TraceCall& call, Thread& thread) {
-  // The recorder notes the window's size as a viewport when a context becomes current; a retracer sizes its
+void TraceSurvey::set_viewport(const TraceCall& call, Thread& thread) {
+  // The recorder notes the window's size as a viewport when a context becomes current. A retracer sizes its
   // windows by the viewports of the default framebuffer.
   if (context(thread.context).draw_framebuffer != 0) return;
-  // A file may claim any 64-bit number where GL has 32 bits; two of them must not overflow.
+  // A file may have any 64-bit number where GL has 32 bits. The sum of two must not overflow.
   const auto gl_int = [&call](size_t position) {
     return std::clamp<int64_t>(argument(call, position), INT32_MIN, INT32_MAX);
   };
   resize(thread.surface, gl_int(0) + gl_int(2), gl_int(1) + gl_int(3));
 }
 
-void TraceSurvey::gl_bind_framebuffer(const TraceCall& call, Thread& thread) {
-  const int64_t target = argument(call, 0);
-  if (target == GL_FRAMEBUFFER || target == GL_DRAW_FRAMEBUFFER)
-    context(thread.context).draw_framebuffer = handle(call, 1);
-}
-
-void TraceSurvey::gl_get_string(const TraceCall& call, Thread&) {
-  if (argument(call, 0) == GL_VERSION) gl_version_ = call.result.text;
-  if (argument(call, 0) == GL_RENDERER) gl_renderer_ = call.result.text;
-}
-
-void TraceSurvey::gl_get_integer64(const TraceCall& call, Thread&) {
+void TraceSurvey::note_time(const TraceCall& call) {
   if (argument(call, 0) != GL_TIMESTAMP) return;
   last_time_ns_ = argument(call, 1);
   if (first_time_ns_ == 0) first_time_ns_ = last_time_ns_;

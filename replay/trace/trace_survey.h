@@ -1,4 +1,4 @@
-// Trace survey: watches the calls that tell what a trace shows, and keeps count of its surfaces and frames.
+// Trace survey: counts surfaces and frames, and learns what the recorded program used.
 #pragma once
 
 #include <map>
@@ -18,7 +18,8 @@ class TraceSurvey {
 
   static bool watches(std::string_view function);
   void see(const TraceCall& call, const TraceFunction& function);
-  /// The API is known from the first function of a window system interface, called or not.
+  /// Learns the API from the first window-system function that the trace defines, whether it is called or
+  /// not.
   void see_function(std::string_view name);
   void report(TraceSummary& summary) const;
 
@@ -32,33 +33,18 @@ class TraceSurvey {
     uint64_t surface = 0, context = 0;
     uint64_t bound_api = 0;
   };
-  using Handler = void (TraceSurvey::*)(const TraceCall&, Thread&);
+  using Handler = void (*)(TraceSurvey&, const TraceCall&, Thread&);
   static const std::map<std::string_view, Handler>& handlers();
 
   TraceSurface& surface(uint64_t id);
   Context& context(uint64_t id);
   void present(uint64_t id, Thread& thread);
   void make_current(Thread& thread, uint64_t surface, uint64_t context, const TraceCall& call);
+  void create_context(const TraceCall& call, std::string client_api);
   void resize(uint64_t id, int64_t width, int64_t height);
-
-  void present_second(const TraceCall& call, Thread& thread);  // surface is argument 1
-  void present_first(const TraceCall& call, Thread& thread);   // surface is argument 0
-  void egl_make_current(const TraceCall& call, Thread& thread);
-  void glx_make_current(const TraceCall& call, Thread& thread);
-  void wgl_make_current(const TraceCall& call, Thread& thread);
-  void glx_make_context_current(const TraceCall& call, Thread& thread);
-  void egl_bind_api(const TraceCall& call, Thread& thread);
-  void egl_create_context(const TraceCall& call, Thread& thread);
-  void egl_create_pbuffer(const TraceCall& call, Thread& thread);
-  void egl_query_surface(const TraceCall& call, Thread& thread);
-  void glx_create_context(const TraceCall& call, Thread& thread);
-  void glx_create_context_attributes(const TraceCall& call, Thread& thread);
-  void glx_create_pbuffer(const TraceCall& call, Thread& thread);
-  void glx_query_drawable(const TraceCall& call, Thread& thread);
-  void gl_viewport(const TraceCall& call, Thread& thread);
-  void gl_bind_framebuffer(const TraceCall& call, Thread& thread);
-  void gl_get_string(const TraceCall& call, Thread& thread);
-  void gl_get_integer64(const TraceCall& call, Thread& thread);
+  void query_size(const TraceCall& call, int64_t width_name, int64_t height_name);
+  void set_viewport(const TraceCall& call, Thread& thread);
+  void note_time(const TraceCall& call);
 
   TraceApi api_ = TraceApi::kUnknown;
   std::unordered_map<uint64_t, Thread> threads_;

@@ -95,123 +95,67 @@ uint64_t TraceValueReader::read_structure_size() {
   return structures_[id] = members;
 }
 
-void TraceValueReader::skip_items(uint64_t count, uint32_t depth) {
-  for (; count > 0; --count) skip(depth);
-}
-
-void TraceValueReader::read_items(uint64_t count, uint32_t depth, TraceValue& into) {
-  into.kind = TraceValue::Kind::kList;
-  for (; count > 0 && budget_bytes_ >= sizeof(TraceValue); --count) into.items.push_back(read(depth));
-  skip_items(count, depth);
-}
-
-TraceValue TraceValueReader::read(uint32_t depth) {
-  check_nesting(depth);
+TraceValue TraceValueReader::read() {
   TraceValue value;
-  if (budget_bytes_ < sizeof value) {
-    skip(depth);
-    return value;
+  read(0, &value);
+  return value;
+}
+
+void TraceValueReader::read_items(uint64_t count, uint32_t depth, TraceValue* into) {
+  if (into != nullptr) into->kind = TraceValue::Kind::kList;
+  for (; count > 0; --count) {
+    const bool kept = into != nullptr && budget_bytes_ >= sizeof(TraceValue);
+    read(depth, kept ? &into->items.emplace_back() : nullptr);
   }
-  budget_bytes_ -= sizeof value;
-  const auto number = [&value](uint64_t bits) {
-    value.kind = TraceValue::Kind::kNumber;
-    value.number = static_cast<int64_t>(bits);
+}
+
+void TraceValueReader::read(uint32_t depth, TraceValue* into) {
+  check_nesting(depth);
+  if (into != nullptr && budget_bytes_ < sizeof *into) into = nullptr;
+  if (into != nullptr) budget_bytes_ -= sizeof *into;
+  const auto number = [into](uint64_t bits) {
+    if (into == nullptr) return;
+    into->kind = TraceValue::Kind::kNumber;
+    into->number = static_cast<int64_t>(bits);
   };
   const uint8_t type = stream_.read_byte();
   switch (type) {
     case kNull:
     case kFalse:
-      number(0);
-      break;
+      return number(0);
     case kTrue:
-      number(1);
-      break;
+      return number(1);
     case kNegative:
-      number(0 - stream_.read_uint());
-      break;
+      return number(0 - stream_.read_uint());
     case kPositive:
     case kPointer:
-      number(stream_.read_uint());
-      break;
+      return number(stream_.read_uint());
     case kFloat:
-      stream_.skip(4);
-      break;
+      return stream_.skip(4);
     case kDouble:
-      stream_.skip(8);
-      break;
+      return stream_.skip(8);
     case kString:
-      value.kind = TraceValue::Kind::kText;
-      value.text = stream_.read_string(budget_bytes_);
-      budget_bytes_ -= value.text.size();
-      break;
+      if (into == nullptr) return stream_.skip_string();
+      into->kind = TraceValue::Kind::kText;
+      into->text = stream_.read_string(budget_bytes_);
+      budget_bytes_ -= into->text.size();
+      return;
     case kBlob:
-      stream_.skip(stream_.read_uint());
-      break;
+      return stream_.skip_string();
     case kEnum:
-      number(static_cast<uint64_t>(read_enumeration()));
-      break;
+      return number(static_cast<uint64_t>(read_enumeration()));
     case kBitmask:
-      number(read_bitmask());
-      break;
+      return number(read_bitmask());
     case kArray:
-      read_items(stream_.read_uint(), depth + 1, value);
-      break;
+      return read_items(stream_.read_uint(), depth + 1, into);
     case kStruct:
-      read_items(read_structure_size(), depth + 1, value);
-      break;
+      return read_items(read_structure_size(), depth + 1, into);
     case kRepresentation:
-      skip(depth + 1);         // for people
-      return read(depth + 1);  // for machines
+      read(depth + 1, nullptr);      // for people
+      return read(depth + 1, into);  // for machines
     case kWideString:
       for (uint64_t left = stream_.read_uint(); left > 0; --left) stream_.read_uint();
-      break;
-    default:
-      fail_corrupt("unknown value type " + std::to_string(type));
-  }
-  return value;
-}
-
-void TraceValueReader::skip(uint32_t depth) {
-  check_nesting(depth);
-  const uint8_t type = stream_.read_byte();
-  switch (type) {
-    case kNull:
-    case kFalse:
-    case kTrue:
-      break;
-    case kNegative:
-    case kPositive:
-    case kPointer:
-      stream_.read_uint();
-      break;
-    case kFloat:
-      stream_.skip(4);
-      break;
-    case kDouble:
-      stream_.skip(8);
-      break;
-    case kString:
-    case kBlob:
-      stream_.skip(stream_.read_uint());
-      break;
-    case kEnum:
-      read_enumeration();
-      break;
-    case kBitmask:
-      read_bitmask();
-      break;
-    case kArray:
-      skip_items(stream_.read_uint(), depth + 1);
-      break;
-    case kStruct:
-      skip_items(read_structure_size(), depth + 1);
-      break;
-    case kRepresentation:
-      skip_items(2, depth + 1);
-      break;
-    case kWideString:
-      for (uint64_t left = stream_.read_uint(); left > 0; --left) stream_.read_uint();
-      break;
+      return;
     default:
       fail_corrupt("unknown value type " + std::to_string(type));
   }

@@ -11,7 +11,7 @@
 
 namespace tilepress {
 
-/// A value as far as this project looks at it: numbers, short strings, arrays of them.
+/// The kinds of values that the survey needs: numbers, short strings, and arrays of them.
 struct TraceValue {
   enum class Kind : uint8_t { kNothing, kNumber, kText, kList };
   Kind kind = Kind::kNothing;
@@ -19,11 +19,11 @@ struct TraceValue {
   std::string text;
   std::vector<TraceValue> items;  ///< arrays and structures
 
-  /// The number itself, or that of a one-element array, which is how output parameters are recorded.
+  /// Returns the number, or the number in a one-element array, as output parameters are recorded.
   int64_t as_number(int64_t otherwise = 0) const;
 };
 
-/// Reads values of a stream and learns the enumerations, bit masks and structures that it defines on the way.
+/// Reads the values of a stream, and learns the enumerations, bit masks and structures that it defines.
 class TraceValueReader {
  public:
   static constexpr uint32_t kMaxNesting = 64;
@@ -32,19 +32,17 @@ class TraceValueReader {
   static constexpr uint64_t kMaxMembers = 1 << 16;
 
   explicit TraceValueReader(TraceStream& stream) : stream_(stream) {}
-  /// Must come before the first value: enumerations are written in another way before version 3.
+  /// Call before the first value: enumerations have another form before version 3.
   void set_version(uint64_t version) { version_ = version; }
-  /// What a call's values may take in memory; values beyond it are skipped.
+  /// Starts a new memory budget, kKeptBytesPerCall. Values beyond the budget are skipped.
   void begin_call() { budget_bytes_ = kKeptBytesPerCall; }
-  TraceValue read() { return read(0); }
-  /// The same bytes, nothing kept.
-  void skip() { skip(0); }
+  TraceValue read();
+  /// Reads the same bytes and keeps none of them.
+  void skip() { read(0, nullptr); }
 
  private:
-  TraceValue read(uint32_t depth);
-  void skip(uint32_t depth);
-  void skip_items(uint64_t count, uint32_t depth);
-  void read_items(uint64_t count, uint32_t depth, TraceValue& into);
+  void read(uint32_t depth, TraceValue* into);  ///< null keeps nothing
+  void read_items(uint64_t count, uint32_t depth, TraceValue* into);
   int64_t read_tagged_integer();
   int64_t read_enumeration();
   uint64_t read_bitmask();
@@ -53,7 +51,7 @@ class TraceValueReader {
   TraceStream& stream_;
   uint64_t version_ = 0;
   uint64_t budget_bytes_ = 0;
-  std::unordered_map<uint64_t, int64_t> enumerations_;  ///< id to value before version 3, else to nothing
+  std::unordered_map<uint64_t, int64_t> enumerations_;  ///< id to value before version 3, to 0 since
   std::unordered_set<uint64_t> bitmasks_;
   std::unordered_map<uint64_t, uint64_t> structures_;  ///< id to number of members
 };

@@ -12,10 +12,9 @@ namespace {
 std::string digest_of(const std::string& text) {
   const std::string path = testing::TempDir() + "tilepress_file_digest_test";
   std::ofstream(path, std::ios::binary) << text;
-  std::string error;
-  const auto digest = sha256_of_file(path, error);
+  const auto digest = sha256_of_file(path);
   std::remove(path.c_str());
-  return digest.value_or(error);
+  return digest ? *digest : digest.error().text;
 }
 
 TEST(FileDigest, GivesTheDigestsOfTheStandard) {
@@ -28,11 +27,12 @@ TEST(FileDigest, GivesTheDigestsOfTheStandard) {
 }
 
 TEST(FileDigest, NamesTheReasonForAFileThatCannotBeRead) {
-  std::string error;
-  EXPECT_FALSE(sha256_of_file("/nonexistent/trace", error));
-  EXPECT_EQ(error, "No such file or directory");
-  EXPECT_FALSE(sha256_of_file("/", error));
-  EXPECT_EQ(error, "Is a directory");
+  const auto missing = sha256_of_file("/nonexistent/trace");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().text, "No such file or directory");
+  const auto folder = sha256_of_file("/");
+  ASSERT_FALSE(folder);
+  EXPECT_EQ(folder.error().text, "Is a directory");
 }
 
 }  // namespace

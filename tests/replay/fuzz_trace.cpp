@@ -12,10 +12,10 @@ namespace {
 constexpr tilepress::TraceLimits kLimits = {.free_stream_bytes = 8 << 20, .max_expansion = 100};
 
 void check(std::span<const uint8_t> file) {
-  std::string error;
-  const auto summary = tilepress::summarize_trace(file, error, kLimits);
+  const auto summary = tilepress::summarize_trace(file, kLimits);
   if (!summary) {
-    if (error.empty() || error.find('\n') != std::string::npos) __builtin_trap();
+    const std::string& reason = summary.error().text;
+    if (reason.empty() || reason.find('\n') != std::string::npos) __builtin_trap();
     return;
   }
   uint64_t frames = 0;

@@ -17,16 +17,15 @@ using testing::HasSubstr;
 const std::string kTraces = TILEPRESS_TEST_TRACES;
 
 TraceSummary summary_of(const Bytes& file) {
-  std::string error;
-  const auto summary = summarize_trace(std::span(file), error);
-  EXPECT_TRUE(summary.has_value()) << error;
-  return summary.value_or(TraceSummary{});
+  const auto summary = summarize_trace(std::span(file));
+  EXPECT_TRUE(summary) << summary.error().text;
+  return summary ? *summary : TraceSummary{};
 }
 
 std::string refusal_of(const Bytes& file) {
-  std::string error;
-  EXPECT_FALSE(summarize_trace(std::span(file), error).has_value());
-  return error;
+  const auto summary = summarize_trace(std::span(file));
+  EXPECT_FALSE(summary);
+  return summary ? "" : summary.error().text;
 }
 
 Bytes bytes_of(std::string_view text) {
@@ -74,7 +73,6 @@ TEST(CutTrace, KeepsAllOfACutChunkThatArrived) {
 }
 
 TEST(CutTrace, OfARecordedProgramKeepsItsFirstFrames) {
-  std::string error;
   std::ifstream stream(kTraces + "/glmark2-desktop-egl.trace", std::ios::binary);
   Bytes file{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   file.resize(300000);
@@ -120,10 +118,9 @@ TEST(DamagedTrace, WithAnyByteChangedIsReadWithoutHarm) {
     for (const uint8_t value : {0x00, 0x01, 0x0b, 0x7f, 0x80, 0xff}) {
       Bytes stream = trace.stream();
       stream[at] = value;
-      std::string error;
       const Bytes file = TraceBuilder::snappy_file(stream);
-      const auto summary = summarize_trace(std::span(file), error);
-      EXPECT_TRUE(summary ? summary->frames <= 6 : !error.empty()) << at;
+      const auto summary = summarize_trace(std::span(file));
+      EXPECT_TRUE(summary ? summary->frames <= 6 : !summary.error().text.empty()) << at;
     }
   }
 }
@@ -181,10 +178,8 @@ TEST(HostileTrace, ThatUnpacksToFarMoreThanItsSizeIsStopped) {
   ASSERT_TRUE(
       BrotliEncoderCompress(5, 22, BROTLI_MODE_GENERIC, stream.size(), stream.data(), &length, file.data()));
   file.resize(length);
-  std::string error;
-  const auto summary =
-      summarize_trace(std::span(file), error, {.free_stream_bytes = 1 << 20, .max_expansion = 10});
-  ASSERT_TRUE(summary) << error;
+  const auto summary = summarize_trace(std::span(file), {.free_stream_bytes = 1 << 20, .max_expansion = 10});
+  ASSERT_TRUE(summary) << summary.error().text;
   EXPECT_EQ(summary->state, TraceState::kCorrupt);
   EXPECT_THAT(summary->reason, HasSubstr("far more than its size justifies"));
 }
@@ -199,11 +194,14 @@ TEST(FileThatIsNoTrace, IsNamedForWhatItIs) {
   EXPECT_THAT(refusal_of({0x28, 0xb5, 0x2f, 0xfd, 0, 0}), HasSubstr("zstd"));
   EXPECT_EQ(refusal_of(TraceBuilder::snappy_file({9, 9})),
             "has trace format version 9; versions up to 6 can be read");
-  std::string error;
-  EXPECT_FALSE(summarize_trace(kTraces, error));
-  EXPECT_EQ(error, "is a directory, not a trace");
-  EXPECT_FALSE(summarize_trace(kTraces + "/none.trace", error));
-  EXPECT_EQ(error, "No such file or directory");
+  const auto folder = summarize_trace(kTraces);
+  ASSERT_FALSE(folder);
+  EXPECT_EQ(folder.error().text, "is a directory, not a trace");
+  EXPECT_EQ(folder.error().kind, ErrorKind::kUnsupported);
+  const auto nothing = summarize_trace(kTraces + "/none.trace");
+  ASSERT_FALSE(nothing);
+  EXPECT_EQ(nothing.error().text, "No such file or directory");
+  EXPECT_EQ(nothing.error().kind, ErrorKind::kFile);
 }
 
 }  // namespace

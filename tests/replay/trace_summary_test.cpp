@@ -13,16 +13,14 @@ namespace {
 const std::string kTraces = TILEPRESS_TEST_TRACES;
 
 TraceSummary summary_of(const Bytes& file) {
-  std::string error;
-  const auto summary = summarize_trace(std::span(file), error);
-  EXPECT_TRUE(summary.has_value()) << error;
-  return summary.value_or(TraceSummary{});
+  const auto summary = summarize_trace(std::span(file));
+  EXPECT_TRUE(summary) << summary.error().text;
+  return summary ? *summary : TraceSummary{};
 }
 
 TEST(RecordedTrace, OfAnEglProgramGivesItsFramesAndSurface) {
-  std::string error;
-  const auto trace = summarize_trace(kTraces + "/glmark2-desktop-egl.trace", error);
-  ASSERT_TRUE(trace) << error;
+  const auto trace = summarize_trace(kTraces + "/glmark2-desktop-egl.trace");
+  ASSERT_TRUE(trace) << trace.error().text;
   EXPECT_EQ(trace->state, TraceState::kComplete);
   EXPECT_EQ(trace->container, "snappy");
   EXPECT_EQ(trace->version, 6u);
@@ -40,9 +38,8 @@ TEST(RecordedTrace, OfAnEglProgramGivesItsFramesAndSurface) {
 }
 
 TEST(RecordedTrace, OfAGlxProgramGivesItsFramesAndSurface) {
-  std::string error;
-  const auto trace = summarize_trace(kTraces + "/glmark2-desktop-glx.trace", error);
-  ASSERT_TRUE(trace) << error;
+  const auto trace = summarize_trace(kTraces + "/glmark2-desktop-glx.trace");
+  ASSERT_TRUE(trace) << trace.error().text;
   EXPECT_EQ(trace->api, TraceApi::kGlx);
   EXPECT_EQ(trace->contexts, "OpenGL");
   EXPECT_EQ(trace->calls, 14336u);
@@ -53,9 +50,8 @@ TEST(RecordedTrace, OfAGlxProgramGivesItsFramesAndSurface) {
 }
 
 TEST(RecordedTrace, InABrotliContainerIsReadAndTellsItsDuration) {
-  std::string error;
-  const auto trace = summarize_trace(kTraces + "/browser-map-egl.trace", error);
-  ASSERT_TRUE(trace) << error;
+  const auto trace = summarize_trace(kTraces + "/browser-map-egl.trace");
+  ASSERT_TRUE(trace) << trace.error().text;
   EXPECT_EQ(trace->container, "brotli");
   EXPECT_EQ(trace->contexts, "OpenGL ES 3.2");
   EXPECT_EQ(trace->stream_bytes, 30979699u);

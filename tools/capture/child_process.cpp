@@ -2,11 +2,9 @@
 #include "capture/child_process.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -32,18 +30,13 @@ void pass_on(int signal) {
   errno = saved;
 }
 
-bool is_runnable(const std::string& path) {
-  struct stat status {};
-  return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && access(path.c_str(), X_OK) == 0;
-}
-
-/// The signal handling of the launcher while a child runs; the old one returns with the destructor.
+/// The launcher's signal handling while a child runs. The destructor restores the old handling.
 class SignalForwarding {
  public:
   SignalForwarding() {
     sigemptyset(&passed_);
     for (int signal : kPassedOn) sigaddset(&passed_, signal);
-    sigprocmask(SIG_BLOCK, &passed_, &old_mask_);  // nothing is passed on before there is a child
+    sigprocmask(SIG_BLOCK, &passed_, &old_mask_);  // no signal is passed on before there is a child
     struct sigaction action {};
     sigemptyset(&action.sa_mask);
     action.sa_flags = SA_RESTART;
@@ -88,7 +81,7 @@ class SignalForwarding {
   _exit(kExitNotFound);
 }
 
-/// Waits for the end of the child and returns its status as waitpid gives it.
+/// Waits for the end of the child. Returns its status in waitpid's form.
 int wait_for(ChildEnd& end, double limit_s) {
   using Clock = std::chrono::steady_clock;
   constexpr auto kGrace = std::chrono::seconds(10);
@@ -110,41 +103,11 @@ int wait_for(ChildEnd& end, double limit_s) {
 
 }  // namespace
 
-std::optional<std::string> find_program(const std::string& name, StartFailure& failure) {
-  if (name.find('/') != std::string::npos) {
-    if (is_runnable(name)) return name;
-    struct stat status {};
-    if (stat(name.c_str(), &status) != 0)
-      failure = {errno == EACCES ? kExitNotExecutable : kExitNotFound, name + ": " + std::strerror(errno)};
-    else
-      failure = {kExitNotExecutable,
-                 name + ": " + (S_ISDIR(status.st_mode) ? "is a folder" : "not executable")};
-    return std::nullopt;
-  }
-  const char* variable = std::getenv("PATH");
-  const std::string path = variable != nullptr ? variable : "/bin:/usr/bin";
-  failure = {kExitNotFound, name + ": not found"};
-  for (size_t begin = 0; begin <= path.size() && !name.empty();) {
-    const size_t colon = std::min(path.find(':', begin), path.size());
-    const std::string folder = path.substr(begin, colon - begin);
-    begin = colon + 1;
-    const std::string candidate = (folder.empty() ? "." : folder) + "/" + name;
-    if (is_runnable(candidate)) return candidate;
-    struct stat status {};
-    if (stat(candidate.c_str(), &status) == 0 && S_ISREG(status.st_mode))
-      failure = {kExitNotExecutable, candidate + ": not executable"};
-  }
-  return std::nullopt;
-}
-
-std::optional<ChildEnd> run_child(const std::vector<std::string>& argv,
-                                  const std::map<std::string, std::string>& environment,
-                                  StartFailure& failure, double limit_s) {
+Result<ChildEnd> run_child(const std::vector<std::string>& argv,
+                           const std::map<std::string, std::string>& environment, double limit_s) {
   int report[2];
-  if (pipe2(report, O_CLOEXEC) != 0) {
-    failure = {kExitLauncherFailed, std::string("pipe: ") + std::strerror(errno)};
-    return std::nullopt;
-  }
+  if (pipe2(report, O_CLOEXEC) != 0)
+    return Error{ErrorKind::kSystem, std::string("pipe: ") + std::strerror(errno)};
   SignalForwarding signals;
   ChildEnd end;
   end.pid = fork();
@@ -154,9 +117,9 @@ std::optional<ChildEnd> run_child(const std::vector<std::string>& argv,
   }
   close(report[1]);
   if (end.pid < 0) {
-    failure = {kExitLauncherFailed, std::string("fork: ") + std::strerror(errno)};
+    const int reason = errno;
     close(report[0]);
-    return std::nullopt;
+    return Error{ErrorKind::kSystem, std::string("fork: ") + std::strerror(reason)};
   }
   signals.child_started(end.pid);
 
@@ -168,9 +131,8 @@ std::optional<ChildEnd> run_child(const std::vector<std::string>& argv,
   const int status = wait_for(end, got == sizeof error ? 0 : limit_s);
   if (got == sizeof error) {
     const bool missing = error == ENOENT || error == ENOTDIR;
-    failure = {missing ? kExitNotFound : kExitNotExecutable,
-               argv[0] + ": " + (missing ? "its interpreter is missing" : std::strerror(error))};
-    return std::nullopt;
+    return Error{missing ? ErrorKind::kFile : ErrorKind::kUnsupported,
+                 argv[0] + ": " + (missing ? "its interpreter is missing" : std::strerror(error))};
   }
   if (WIFSIGNALED(status))
     end.signal = WTERMSIG(status);
@@ -178,6 +140,11 @@ std::optional<ChildEnd> run_child(const std::vector<std::string>& argv,
     end.exit_status = WEXITSTATUS(status);
   end.told_to_end = told_to_end != 0 || end.signal == SIGINT || end.signal == SIGQUIT;
   return end;
+}
+
+int start_status(const Error& error) {
+  if (error.kind == ErrorKind::kFile) return kExitNotFound;
+  return error.kind == ErrorKind::kUnsupported ? kExitNotExecutable : kExitLauncherFailed;
 }
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// GL probe: libEGL by dlopen, in a forked child that answers through a pipe.
+// GL probe: dlopen of libEGL in a forked child, which answers through a pipe.
 #include "capture/gl_probe.h"
 
 #include <EGL/egl.h>
@@ -77,7 +77,7 @@ GlProbe probe_gl() {
   if (pipe2(ends, O_CLOEXEC) != 0) return out;
   const pid_t child = fork();
   if (child == 0) {
-    // Drivers write what they miss to standard error.
+    // Drivers write their complaints to standard error.
     const int nowhere = open("/dev/null", O_WRONLY);
     if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
     const GlProbe found = probe_here();

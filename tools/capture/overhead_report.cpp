@@ -1,4 +1,4 @@
-// Overhead report: the mean decides, because it is what the frame rate follows from.
+// Overhead report: ratios of means, because the mean determines the frame rate.
 #include "capture/overhead_report.h"
 
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 namespace tilepress {
 namespace {
 
-/// All intervals of one side.
+/// The intervals of all runs with, or without, the shim.
 PresentSeries side(const std::vector<OverheadRun>& runs, bool captured) {
   PresentSeries all;
   for (const OverheadRun& run : runs) {
@@ -50,7 +50,7 @@ std::string overhead_text(const std::vector<OverheadRun>& runs) {
   }
   const PresentSeries without = side(runs, false), with = side(runs, true);
   if (without.intervals_ns.empty() || with.intervals_ns.empty())
-    return out + "  no ratio: it takes three frames on either side\n";
+    return out + "  no ratio: it takes three frames with the shim and three without\n";
   return out +
          fmt::format(
              "  frame-time ratio {:.3f} by the mean ({:.3f} to {:.3f} in a round), {:.3f} by the median\n",

@@ -1,4 +1,4 @@
-// Overhead report: frame times of a program with and without the shim, for people and as rows.
+// Overhead report: frame times of a program with and without the shim, as a table and as CSV.
 #pragma once
 
 #include <string>
@@ -16,11 +16,11 @@ struct OverheadRun {
   PresentSeries series;
 };
 
-/// A line per run, and the frame-time ratio: mean frame time with over without, over all rounds together and
-/// the smallest and largest of a round. Says so where a side presented too little to tell.
+/// Returns a line per run and the frame-time ratio: the mean frame time with the shim over that without, for
+/// all rounds together, and the smallest and largest of a round. Without enough frames, a line says so.
 std::string overhead_text(const std::vector<OverheadRun>& runs);
 
-/// The file overhead.csv: a row per run; the ratios stand in the rows with the shim.
+/// Returns overhead.csv: a row per run. Rows with the shim have the ratios.
 std::string overhead_csv(const std::vector<OverheadRun>& runs);
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Present costs: what capturing cost per frame, from presents.csv and frames.csv of a run.
+// Present costs: the cost of capturing a frame, from presents.csv and frames.csv of a run.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ namespace tilepress {
 struct PresentCosts {
   uint64_t frames = 0;  ///< 0 = the run has no presents.csv: it was not captured from a program
   double readback_ns = 0, read_ns = 0, bind_ns = 0, hand_off_ns = 0;  ///< on the program's thread
-  double wait_ns = 0;                                                 ///< there too, for room in the queue
-  double encode_ns = 0;                                               ///< on the worker's thread
+  double wait_ns = 0;    ///< on that thread, for room in the queue
+  double encode_ns = 0;  ///< on the worker's thread
 };
 
 PresentCosts present_costs(const RunRecord& run);
 
-/// One line for people, ending in a newline; empty if there is nothing to tell.
+/// Returns lines for people, each ending in a newline; empty without costs.
 std::string present_costs_text(const PresentCosts& costs);
 
 }  // namespace tilepress

@@ -15,7 +15,7 @@
 namespace tilepress {
 namespace {
 
-/// Frames presented before the first interval that counts: the shim loads itself in the first.
+/// Presents before the first interval that counts: the shim loads its engine in the first.
 constexpr size_t kStartUpFrames = 2;
 
 using Presents = std::vector<PresentTimeRow>;

@@ -18,7 +18,7 @@ std::string preload_obstacle(const std::string& path) {
   file.read(reinterpret_cast<char*>(&header), sizeof header);
   if (!file || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return {};
   constexpr unsigned char kOwnClass = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
-  if (header.e_ident[EI_CLASS] != kOwnClass) return "is a 32-bit program; this shim is for 64-bit ones";
+  if (header.e_ident[EI_CLASS] != kOwnClass) return "is a 32-bit program, and the shim is a 64-bit library";
   for (uint32_t i = 0; i < header.e_phnum; ++i) {
     Elf64_Phdr segment{};
     file.seekg(static_cast<std::streamoff>(header.e_phoff + uint64_t{i} * header.e_phentsize));
@@ -26,7 +26,7 @@ std::string preload_obstacle(const std::string& path) {
     if (!file) return {};
     if (segment.p_type == PT_INTERP) return {};
   }
-  return "is statically linked: nothing can be preloaded into it";
+  return "is statically linked: the loader preloads nothing into it";
 }
 
 }  // namespace tilepress

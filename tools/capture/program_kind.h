@@ -1,12 +1,12 @@
-// Program kind: whether a program file can be preloaded into at all.
+// Program kind: whether LD_PRELOAD works on a program file.
 #pragma once
 
 #include <string>
 
 namespace tilepress {
 
-/// The reason why LD_PRELOAD cannot reach `path` (statically linked, of another word size, set-user-ID), or
-/// empty.
+/// Returns why LD_PRELOAD cannot reach `path` (statically linked, another word size, set-user-ID); empty if
+/// it can.
 std::string preload_obstacle(const std::string& path);
 
 }  // namespace tilepress

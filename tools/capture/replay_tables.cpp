@@ -36,7 +36,7 @@ std::string category_label(const std::string& category) {
 
 using Row = std::vector<std::string>;
 
-/// Columns as wide as they need; the first two to the left, the others to the right.
+/// Aligns the first two columns to the left and the others to the right.
 std::string aligned(const std::vector<Row>& rows) {
   std::vector<size_t> widths;
   for (const Row& row : rows) {
@@ -119,8 +119,8 @@ std::string replay_table(const std::vector<std::unique_ptr<TraceReplay>>& replay
   return aligned(rows);
 }
 
-bool write_replay_csv(const std::string& folder, const std::vector<std::unique_ptr<TraceReplay>>& replays,
-                      std::string& error) {
+Result<void> write_replay_csv(const std::string& folder,
+                              const std::vector<std::unique_ptr<TraceReplay>>& replays) {
   std::string traces =
       "trace,path,category,status,frames,frames_wanted,frames_captured,seconds,scheme,rate_payload,rate\n";
   for (const auto& replay : replays) traces += trace_rows(*replay);
@@ -128,8 +128,11 @@ bool write_replay_csv(const std::string& folder, const std::vector<std::unique_p
   for (const CategoryMean& mean : category_means(replays))
     categories += fmt::format("{},{},{},{},{}\n", category_label(mean.category), csv_field(mean.scheme),
                               mean.traces, csv_number(mean.rate_payload), csv_number(mean.rate));
-  return write_whole_file(folder + "/replay.csv", traces, true, error) &&
-         write_whole_file(folder + "/categories.csv", categories, true, error);
+  std::string error;
+  if (write_whole_file(folder + "/replay.csv", traces, true, error) &&
+      write_whole_file(folder + "/categories.csv", categories, true, error))
+    return {};
+  return Error{ErrorKind::kFile, error};
 }
 
 }  // namespace tilepress

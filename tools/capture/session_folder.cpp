@@ -1,4 +1,4 @@
-// Session folder: small text files, read once the program has ended.
+// Session folder: small text files, read after the program has ended.
 #include "capture/session_folder.h"
 
 #include <fcntl.h>
@@ -18,16 +18,16 @@
 #include <sstream>
 #include <tuple>
 
+#include "printable.h"
 #include "tilepress/session_mark.h"
 #include "tilepress/shared_folder.h"
-#include "printable.h"
 
 namespace tilepress {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a plain file, or the target of a link: others may have put anything there.
+/// Returns the lines of a regular file, or the target of a symbolic link. Any program may have written them.
 std::vector<std::string> lines_of(const fs::path& path) {
   std::vector<std::string> lines;
   std::error_code code;
@@ -51,7 +51,7 @@ std::vector<fs::path> files_with(const std::string& folder, const char* extensio
 std::vector<std::string> by_program(const std::vector<std::string>& lines) {
   std::map<std::string, std::set<std::string>> entries;
   for (const std::string& line : lines) {
-    // The program's name may hold spaces, entry and road do not.
+    // Only the program's name may contain spaces.
     const size_t road = line.rfind(' ');
     const size_t entry =
         road == std::string::npos || road == 0 ? std::string::npos : line.rfind(' ', road - 1);
@@ -69,7 +69,7 @@ std::vector<std::string> by_program(const std::vector<std::string>& lines) {
   return out;
 }
 
-/// An abstract socket: a process with another root or another /tmp still finds it. -1 if there can be none.
+/// Opens an abstract socket, which processes with another root or /tmp still find. Returns -1 on failure.
 int open_socket(const std::string& name) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -90,15 +90,13 @@ SessionFolder::~SessionFolder() {
   if (socket_ >= 0) close(socket_);
 }
 
-bool SessionFolder::create(const std::string& output, std::string& error) {
+Result<void> SessionFolder::create(const std::string& output) {
   std::string pattern = output + "/.session-XXXXXX";
-  if (mkdtemp(pattern.data()) == nullptr) {
-    error = output + ": " + std::strerror(errno);
-    return false;
-  }
+  if (mkdtemp(pattern.data()) == nullptr)
+    return Error{ErrorKind::kFile, output + ": " + std::strerror(errno)};
   output_ = output;
   path_ = pattern;
-  // A program that root starts may go on as any user. Then at least its messages come through.
+  // A program that root starts may become any user. Its messages still arrive.
   const bool for_all = geteuid() == 0;
   share_like_parent(path_, for_all ? 01777 : 0);
   const int log = open(log_path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -107,7 +105,7 @@ bool SessionFolder::create(const std::string& output, std::string& error) {
     close(log);
   }
   socket_ = open_socket("tilepress/" + fs::path(path_).filename().string());
-  return true;
+  return {};
 }
 
 std::vector<CapturedProcess> SessionFolder::captured() const {
@@ -117,8 +115,7 @@ std::vector<CapturedProcess> SessionFolder::captured() const {
   for (const auto& entry : fs::directory_iterator(output_, code)) {
     if (!fs::is_directory(entry.symlink_status(code))) continue;
     const auto mark = read_session_mark(entry.path().string());
-    if (mark && mark->session == name)
-      out.push_back({mark->pid, mark->pid_namespace, entry.path().string()});
+    if (mark && mark->session == name) out.push_back({mark->pid, mark->pid_namespace, entry.path().string()});
   }
   std::sort(out.begin(), out.end(), [](const CapturedProcess& a, const CapturedProcess& b) {
     return std::tie(a.pid, a.run_path) < std::tie(b.pid, b.run_path);

@@ -1,14 +1,15 @@
-// Shim path: where the libraries lie that are preloaded, or loaded or run when needed.
+// Shim path: where the libraries and programs are that the command preloads, loads or runs.
 #pragma once
 
-#include <optional>
 #include <string>
+
+#include "tilepress/result.h"
 
 namespace tilepress {
 
-/// Looks for `library`, or another part that lies beside the shim, relative to this executable: in an
-/// installed tree (../lib, ../lib/tilepress) and in a build tree (../interposer). Absolute. `looked` receives
-/// the places tried, for an error line.
-std::optional<std::string> find_shim(const std::string& library, std::string& looked);
+/// Looks for `part`, a file that is installed beside the shim, relative to this executable: in an installed
+/// tree (../lib, ../lib/tilepress) and in a build tree (../interposer). Returns an absolute path. Error:
+/// kFile, with the places it looked at.
+Result<std::string> find_shim(const std::string& part);
 
 }  // namespace tilepress

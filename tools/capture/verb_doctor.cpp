@@ -1,4 +1,4 @@
-// tilepress doctor: tells what this machine offers and lacks, with the Debian package that has it.
+// tilepress doctor: checks this machine and names the Debian packages it lacks.
 #include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -12,11 +12,11 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "capture/child_process.h"
-#include "command_line.h"
 #include "capture/gl_probe.h"
 #include "capture/shim_path.h"
 #include "capture/shim_self_test.h"
+#include "command_line.h"
+#include "tilepress/program_search.h"
 #include "verb.h"
 
 namespace tilepress {
@@ -25,14 +25,13 @@ namespace {
 struct Finding {
   std::string what;
   bool found = false;
-  bool essential = false;  ///< nothing can be captured without it
+  bool essential = false;  ///< without it no program can be captured
   std::string detail;
-  std::string package;  ///< Debian package that brings it
+  std::string package;  ///< Debian package that contains it
 };
 
 Finding find_tool(const char* name, const char* purpose, const char* package) {
-  StartFailure ignored{};
-  const auto path = find_program(name, ignored);
+  const auto path = find_program(name);
   return {name, path.has_value(), false, path ? *path + ", " + purpose : purpose, package};
 }
 
@@ -42,8 +41,7 @@ bool file_contains(const std::string& path, const char* word) {
   return content.find(word) != std::string::npos;
 }
 
-/// Whether an X server answers behind a local DISPLAY (":1", ":1.0", "unix:1"); remote ones are taken at
-/// their word.
+/// Whether an X server answers at a local DISPLAY (":1", ":1.0", "unix:1"). Returns true for a remote one.
 bool display_answers(const std::string& display) {
   const size_t colon = display.rfind(':');
   if (colon == std::string::npos) return false;
@@ -54,7 +52,7 @@ bool display_answers(const std::string& display) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   path.copy(address.sun_path, sizeof address.sun_path - 1);
-  // Linux servers also listen under the same name in the abstract name space, and some only there.
+  // Linux servers also listen under the same name in the abstract namespace, some only there.
   bool answers = connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   if (!answers) {
     std::memset(address.sun_path, 0, sizeof address.sun_path);
@@ -71,7 +69,7 @@ void add_gl(std::vector<Finding>& findings) {
   findings.push_back({"EGL library", !gl.egl_version.empty(), true,
                       gl.egl_version.empty() ? gl.failure : "libEGL.so.1, " + gl.egl_version, "libegl1"});
   findings.push_back({"libglvnd", gl.glvnd, false,
-                      gl.glvnd ? "libEGL dispatches to vendors" : "libEGL is no libglvnd: no vendor shim",
+                      gl.glvnd ? "libEGL dispatches to vendors" : "libEGL is not libglvnd: no vendor shim",
                       "libegl1"});
   const bool software =
       gl.renderer.find("llvmpipe") != std::string::npos || gl.renderer.find("softpipe") != std::string::npos;
@@ -106,8 +104,7 @@ void add_displays(std::vector<Finding>& findings) {
 }
 
 void add_replay(std::vector<Finding>& findings) {
-  StartFailure ignored{};
-  const auto retracer = find_program("eglretrace", ignored);
+  const auto retracer = find_program("eglretrace");
   const bool waffle = retracer && file_contains(*retracer, "libwaffle");
   findings.push_back({"eglretrace", waffle, false,
                       !retracer ? "replays traces"
@@ -118,21 +115,21 @@ void add_replay(std::vector<Finding>& findings) {
   findings.push_back(find_tool("apitrace", "records traces", "apitrace"));
 }
 
-/// Whether the shim really gets into a program and captures it, by each road.
-void add_self_tests(std::vector<Finding>& findings, const std::string& shim) {
-  const SelfTestResult preload = test_shim(shim, ShimRoad::kPreload);
-  findings.push_back({"capture", preload.passed, true, "preloaded: " + preload.detail, ""});
-  const SelfTestResult glvnd = test_shim(shim, ShimRoad::kGlvnd);
-  findings.push_back({"capture", glvnd.passed, false, "through libglvnd: " + glvnd.detail, ""});
+/// Tests whether the shim gets into a program and captures it.
+Finding test_road(const std::string& shim, ShimRoad road, bool essential, const char* how) {
+  const auto passed = test_shim(shim, road);
+  return {"capture", passed.has_value(), essential, how + (passed ? *passed : passed.error().text), ""};
 }
 
 std::vector<Finding> examine() {
   std::vector<Finding> findings;
-  std::string looked;
-  const auto shim = find_shim("libtilepress-preload.so", looked);
-  findings.push_back({"shim", shim.has_value(), true, shim ? *shim : "looked at " + looked, ""});
+  const auto shim = find_shim("libtilepress-preload.so");
+  findings.push_back({"shim", shim.has_value(), true, shim ? *shim : shim.error().text, ""});
   add_gl(findings);
-  if (shim) add_self_tests(findings, *shim);
+  if (shim) {
+    findings.push_back(test_road(*shim, ShimRoad::kPreload, true, "preloaded: "));
+    findings.push_back(test_road(*shim, ShimRoad::kGlvnd, false, "through libglvnd: "));
+  }
   add_displays(findings);
   findings.push_back(find_tool("Xvfb", "an X server without a screen", "xvfb"));
   findings.push_back(find_tool("xvfb-run", "runs a program in one", "xvfb"));
@@ -147,7 +144,8 @@ std::vector<Finding> examine() {
 
 int verb_doctor(int argc, char** argv) {
   CLI::App app(
-      "Tells what this machine offers for capture and replay, and what is missing. Exit 1 if no capture is "
+      "Checks what this machine has for capture and replay, and names missing packages. Exit 1 if no capture "
+      "is "
       "possible.");
   bool json = false;
   app.add_flag("--json", json, "As JSON");

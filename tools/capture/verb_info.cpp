@@ -1,4 +1,4 @@
-// tilepress info: what a trace holds, for people or as JSON.
+// tilepress info: prints what a trace holds, for people or as JSON.
 #include <fmt/core.h>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -7,6 +7,7 @@
 
 #include "command_line.h"
 #include "printable.h"
+#include "tilepress/plural.h"
 #include "tilepress/trace_summary.h"
 #include "verb.h"
 
@@ -65,11 +66,10 @@ void print_trace(const std::string& path, const TraceSummary& trace) {
   for (const TraceSurface& surface : trace.surfaces) {
     const std::string size =
         surface.width == 0 ? "size not recorded" : fmt::format("{}x{}", surface.width, surface.height);
-    print_line(label, fmt::format("{:#x}: {}, {} frames", surface.id, size, surface.frames));
+    print_line(label, fmt::format("{:#x}: {}, {}", surface.id, size, plural(surface.frames, "frame")));
     label = "";
   }
-  std::string calls =
-      fmt::format("{} by {} thread{}", trace.calls, trace.threads, trace.threads == 1 ? "" : "s");
+  std::string calls = fmt::format("{} by {}", trace.calls, plural(trace.threads, "thread"));
   if (trace.open_calls > 0) calls += fmt::format(", {} never returned", trace.open_calls);
   print_line("calls", calls);
   print_line("duration", trace.duration_ns ? fmt::format("{:.3f} s between the program's GPU time stamps",
@@ -83,7 +83,7 @@ void print_trace(const std::string& path, const TraceSummary& trace) {
 }  // namespace
 
 int verb_info(int argc, char** argv) {
-  CLI::App app("Tells what apitrace traces hold, without replaying them.");
+  CLI::App app("Prints what apitrace traces hold, without replaying them.");
   bool json = false;
   std::vector<std::string> paths;
   app.add_flag("--json", json, "As JSON: an array with an object for each trace");
@@ -93,18 +93,17 @@ int verb_info(int argc, char** argv) {
   int status = kExitDone;
   Json list = Json::array();
   for (const std::string& path : paths) {
-    std::string error;
-    const auto trace = summarize_trace(path, error);
+    const auto trace = summarize_trace(path);
     if (!trace) {
-      status = fail(kExitFailed, path + ": " + error);
-      if (json) list.push_back({{"path", path}, {"state", "unreadable"}, {"reason", error}});
+      status = fail(kExitFailed, about(path, trace.error()));
+      if (json) list.push_back({{"path", path}, {"state", "unreadable"}, {"reason", trace.error().text}});
       continue;
     }
     json ? list.push_back(trace_json(path, *trace)) : print_trace(path, *trace);
     if (trace->state != TraceState::kComplete) {
       std::fflush(stdout);
-      status = fail(kExitFailed, fmt::format("{}: {} after {} frames: {}", path, name_of(trace->state),
-                                             trace->frames, trace->reason));
+      status = fail(kExitFailed, fmt::format("{}: {} after {}: {}", path, name_of(trace->state),
+                                             plural(trace->frames, "frame"), trace->reason));
     }
   }
   if (json) std::printf("%s\n", list.dump(2, ' ', false, Json::error_handler_t::replace).c_str());

@@ -14,12 +14,10 @@ struct Loaded {
 };
 
 Loaded load() {
-  constexpr const char* kName = "libtilepress-images.so";
   Loaded out;
-  std::string looked;
-  const auto path = find_shim(kName, looked);
+  const auto path = find_shim("libtilepress-images.so");
   if (!path) {
-    out.error = std::string(kName) + ": not found, looked for " + looked;
+    out.error = path.error().text;
     return out;
   }
   void* module = dlopen(path->c_str(), RTLD_LAZY | RTLD_LOCAL);

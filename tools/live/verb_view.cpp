@@ -1,4 +1,4 @@
-// tilepress view: hands over to the window, a program of its own beside this one.
+// tilepress view: replaces itself with tilepress-view, the program that has the window.
 #include <unistd.h>
 
 #include <cerrno>
@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "capture/choice_option.h"
+#include "capture/shim_path.h"
 #include "command_line.h"
 #include "frames/image_frames.h"
-#include "capture/shim_path.h"
+#include "live/view/view_request.h"
 #include "streams/standard_streams.h"
 #include "verb.h"
-#include "live/view/view_request.h"
 
 namespace tilepress {
 namespace {
@@ -23,7 +24,8 @@ constexpr const char* kWindow = "tilepress-view";
 constexpr const char* kKeys =
     "Keys: arrows or 1..9 scheme, h heat map, space freeze, + - zoom, f fit, Tab next capture, ? help, q "
     "quit.\n"
-    "The program goes on when the window is closed or killed; what is captured never holds what is shown.\n";
+    "The captured program goes on when the window is closed or killed. The window is never part of a "
+    "frame.\n";
 
 }  // namespace
 
@@ -37,15 +39,10 @@ int verb_view(int argc, char** argv) {
   app.add_option("DIR", request.folder, "A run directory, or a folder of some (default: tilepress-out)");
   app.add_option("-s,--scheme", request.scheme, "The scheme shown first, as the run names it")
       ->type_name("SPEC");
-  app.add_option_function<std::string>(
-         "--overlay",
-         [&](const std::string& word) {
-           const auto overlay = parse_overlay(word);
-           if (!overlay) throw CLI::ValidationError("--overlay " + word + ": not blend, only or off");
-           request.overlay = *overlay;
-         },
-         "Heat map over the frame, alone, or none (default: blend)")
-      ->type_name("blend|only|off");
+  add_choice_option<Overlay>(
+      app, "--overlay", request.overlay,
+      {{"blend", Overlay::kBlended}, {"only", Overlay::kHeatOnly}, {"off", Overlay::kOff}},
+      "Heat map over the frame, alone, or none (default: blend)");
   app.add_option("--zoom", request.zoom, "Window pixels per frame pixel (default: 0, as large as fits)")
       ->type_name("N")
       ->check(CLI::Range(0, 32));
@@ -61,18 +58,18 @@ int verb_view(int argc, char** argv) {
          },
          "Size of the window (default: 960x640)")
       ->type_name("WxH");
-  app.add_option("--screenshot", request.screenshot, "Write the window with the first frame as PNG, and end")
+  app.add_option("--screenshot", request.screenshot,
+                 "Write the window with its first frame as a PNG file, and end")
       ->type_name("FILE");
   app.add_option("--wait", request.wait_s,
-                 "With --screenshot: how long for a frame; exit 3 if none comes (default: 10)")
+                 "With --screenshot: seconds to wait for a frame; exit 3 if none comes (default: 10)")
       ->type_name("SECONDS")
       ->check(CLI::Range(1, 86400));
   if (const auto stop = parse_command_line(app, argc, argv)) return *stop;
 
-  std::string looked;
-  const auto window = find_shim(kWindow, looked);
-  if (!window) return fail(kExitFailed, std::string(kWindow) + ": not found (looked at " + looked + ")");
-  // In a shell under `tilepress run` the window itself would be captured.
+  const auto window = find_shim(kWindow);
+  if (!window) return fail(kExitFailed, window.error());
+  // In a shell under `tilepress run`, the shim would capture the window.
   for (const char* name : {"LD_PRELOAD", "__EGL_VENDOR_LIBRARY_FILENAMES", "__GLX_VENDOR_LIBRARY_NAME"})
     if (const char* value = std::getenv(name); value != nullptr && std::strstr(value, "tilepress") != nullptr)
       unsetenv(name);

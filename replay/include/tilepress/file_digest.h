@@ -1,13 +1,14 @@
 // File digest: SHA-256 of a file, which identifies a trace.
 #pragma once
 
-#include <optional>
 #include <string>
+
+#include "tilepress/result.h"
 
 namespace tilepress {
 
-/// Returns the SHA-256 of the file's bytes in lower-case hexadecimal, 64 characters. Returns nothing, with one
-/// line in `error`, if the file cannot be read.
-std::optional<std::string> sha256_of_file(const std::string& path, std::string& error);
+/// Returns the SHA-256 of the file's bytes in lower-case hexadecimal, 64 characters. Error: kFile if the file
+/// cannot be read, kSystem if libcrypto fails.
+Result<std::string> sha256_of_file(const std::string& path);
 
 }  // namespace tilepress

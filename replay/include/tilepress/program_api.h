@@ -1,5 +1,4 @@
-// Program API: through which window system interface a program will present its frames, guessed from its
-// file.
+// Program API: guesses from a program's file whether it presents its frames through EGL or GLX.
 #pragma once
 
 #include <string>
@@ -10,12 +9,12 @@ namespace tilepress {
 
 struct ApiGuess {
   TraceApi api = TraceApi::kGlx;  ///< kEgl or kGlx
-  bool certain = false;           ///< the program names functions of this one alone
+  bool certain = false;           ///< the program names functions of this API only
   std::string why;                ///< one line for -v
 };
 
-/// Looks for names of EGL and GLX in the program's file. Toolkits decide at run time and leave no name in a
-/// program: then a Wayland session or the want of any display speaks for EGL, an X server for GLX.
+/// Looks for names of EGL and GLX in the program's file. A program whose toolkit decides at run time names
+/// neither: then the guess is EGL in a Wayland session or without a display, and GLX with an X server.
 ApiGuess guess_program_api(const std::string& program_path);
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Replay batch: many traces, some at a time, and the means over them.
+// Replay batch: replays many traces, some at a time, and averages their rates.
 #pragma once
 
 #include <atomic>
@@ -13,10 +13,9 @@
 
 namespace tilepress {
 
-/// A batch's frames so far.
 struct BatchProgress {
   uint64_t frames_done = 0;
-  /// Over all traces that can be replayed; none until all are read.
+  /// Over all traces that can be replayed; none until all traces are read.
   std::optional<uint64_t> frames_wanted;
 };
 
@@ -24,10 +23,9 @@ class ReplayBatch {
  public:
   /// The options must outlive the batch.
   ReplayBatch(const std::vector<ReplayInput>& inputs, const ReplayOptions& options);
-  /// Reads all traces, and replays those that can be, `jobs` at a time, as soon as they are read; the first
-  /// need not even wait for that. A trace that fails does not stop the others. `tick` is called ten times a
-  /// second or so, from this thread. Returns early, with the replays at work interrupted, once `stop` is not
-  /// 0: the number of the signal that ends us.
+  /// Reads the traces in order and replays them, `jobs` at a time. The first `jobs` replays start before
+  /// their traces are read. A trace that fails does not stop the others. Calls `tick` about ten times a
+  /// second from this thread. Once `stop` holds the number of a signal, interrupts the replays and returns.
   void run(unsigned jobs, const std::atomic<int>& stop,
            const std::function<void(const BatchProgress&)>& tick);
   /// In the order of the inputs.
@@ -45,8 +43,8 @@ struct CategoryMean {
   double rate = 0, rate_payload = 0;
 };
 
-/// Over the traces that were captured in full and have measured frames; categories in order of first
-/// occurrence, at the end all traces together.
+/// Returns the means over the traces that were captured in full and have measured frames. Categories come in
+/// order of first occurrence, and all traces together come last.
 std::vector<CategoryMean> category_means(const std::vector<std::unique_ptr<TraceReplay>>& replays);
 
 }  // namespace tilepress

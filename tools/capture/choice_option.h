@@ -1,0 +1,32 @@
+// Choice option: a command-line option whose value is one of a few words.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tilepress {
+
+/// Adds `flags`. Each word of `choices` sets `value`, which must outlive the parsing, to the word's value.
+/// The help shows the words as "a|b|c".
+template <typename T>
+void add_choice_option(CLI::App& app, const std::string& flags, T& value,
+                       const std::vector<std::pair<std::string, T>>& choices, const std::string& text) {
+  std::string words;
+  for (const auto& [word, meaning] : choices) words += (words.empty() ? "" : "|") + word;
+  app.add_option_function<std::string>(
+         flags,
+         [&value, choices, flags, words](const std::string& given) {
+           for (const auto& [word, meaning] : choices)
+             if (word == given) {
+               value = meaning;
+               return;
+             }
+           throw CLI::ValidationError(flags + ": '" + given + "' is none of " + words);
+         },
+         text)
+      ->type_name(words);
+}
+
+}  // namespace tilepress

@@ -1,0 +1,75 @@
+// Replay outcome: lists of traces by status.
+#include "capture/replay_outcome.h"
+
+#include <algorithm>
+
+#include "command_line.h"
+#include "frames/dumped_frames.h"
+#include "printable.h"
+
+namespace tilepress {
+namespace {
+
+bool is_good(const ReplayResult& result) {
+  return result.status == ReplayStatus::kDone || result.status == ReplayStatus::kKept;
+}
+
+}  // namespace
+
+std::string interruption_text(const ReplayBatch& batch) {
+  std::string done, cut, waiting;
+  bool interrupted = false;
+  const auto add = [](std::string& list, const std::string& text) {
+    list += (list.empty() ? "" : ", ") + text;
+  };
+  for (const auto& replay : batch.replays()) {
+    const ReplayResult& result = replay->result();
+    const std::string& path = replay->input().path;
+    interrupted |= result.status == ReplayStatus::kInterrupted;
+    if (result.status == ReplayStatus::kWaiting)
+      add(waiting, path);
+    else if (is_good(result))
+      add(done, path);
+    else
+      add(cut, path + " " + result.reason);
+  }
+  if (!interrupted && waiting.empty()) return {};
+  std::string text;
+  if (!done.empty()) text += "done: " + done;
+  if (!cut.empty()) text += (text.empty() ? "" : "; ") + cut;
+  if (!waiting.empty()) text += (text.empty() ? "" : "; ") + std::string("not replayed: ") + waiting;
+  return text;
+}
+
+bool convert_all_dumped_frames(const ReplayBatch& batch) {
+  bool good = true;
+  for (const auto& replay : batch.replays()) {
+    const std::string& path = replay->result().run.path;
+    std::string error;
+    if (path.empty() || convert_dumped_frames(path, error)) continue;
+    fail(kExitFailed, error);
+    good = false;
+  }
+  return good;
+}
+
+int report_failures(const ReplayBatch& batch) {
+  constexpr size_t kShownLines = 5;
+  uint64_t captured = 0;
+  bool failed = !convert_all_dumped_frames(batch), nothing = false;
+  for (const auto& replay : batch.replays()) {
+    const ReplayResult& result = replay->result();
+    captured += result.frames_captured;
+    if (is_good(result)) continue;
+    (result.status == ReplayStatus::kNothingCaptured ? nothing : failed) = true;
+    fail(kExitFailed, replay->input().path + ": " +
+                          (result.status == ReplayStatus::kWaiting ? "not replayed" : result.reason));
+    const auto& lines = result.retracer_lines;
+    for (size_t i = lines.size() - std::min(lines.size(), kShownLines); i < lines.size(); ++i)
+      show("  said: " + printable(lines[i]) + "\n");
+  }
+  if (nothing && !failed && captured == 0) return kExitNothingCaptured;
+  return failed || nothing ? kExitFailed : kExitDone;
+}
+
+}  // namespace tilepress
