@@ -20,7 +20,7 @@ constexpr Verb kVerbs[] = {
     {"replay", "replay recorded traces without a display and capture their frames", verb_replay,
      OnSignal::kEndInOrder},
     {"record", "record a program into a trace", verb_record, OnSignal::kVerbsOwn},
-    {"info", "tell what recorded traces hold", verb_info},
+    {"info", "print what recorded traces hold", verb_info},
     {"bench", "time each scheme beside memcpy and LZ4", verb_bench},
     {"report", "make a page for people from one run or many", verb_report},
     {"compare", "two runs side by side, with an exit status for regressions", verb_compare},
@@ -32,7 +32,7 @@ constexpr Verb kVerbs[] = {
     {"view", "show the last frame of a running capture in a window", verb_view, OnSignal::kVerbsOwn},
     {"export", "a run as gem5 statistics or JSON lines", verb_export},
     {"schemes", "list the schemes and their options", verb_schemes},
-    {"doctor", "tell what this machine offers and what is missing", verb_doctor},
+    {"doctor", "check this machine and name missing packages", verb_doctor},
 };
 
 constexpr const char* kHeadText =

@@ -1,4 +1,4 @@
-// Capture screen: the texts, and nothing about terminals.
+// Capture screen: texts only; the caller knows the terminal.
 #include "live/capture_screen.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ std::string bar_of(double rate, size_t columns) {
   return std::string(full, '#') + std::string(columns - full, '.');
 }
 
-/// Fields side by side, on as many lines as they take; all but the first field's line are set in by two.
+/// Puts fields side by side on as many lines as necessary. Lines after the first are indented by two.
 void add_wrapped(const std::vector<std::string>& fields, size_t indent, size_t columns,
                  std::vector<std::string>& lines) {
   std::string line(indent, ' ');
@@ -75,7 +75,7 @@ std::vector<std::string> capture_lines(const WatchedCapture& capture, size_t col
                fmt::format("dropped {}", now.dropped), fmt::format("skipped {}", now.skipped),
                fmt::format("unsupported {}", now.unsupported + now.not_captured)},
               2, columns, lines);
-  // Costs of the time between the snapshots; of the whole run where nothing came in between.
+  // Costs between the snapshots, or of the whole run if no frame came between them.
   const bool fresh = now.captured > capture.before.captured && capture.elapsed_s > 0;
   const uint64_t count = fresh ? now.captured - capture.before.captured : now.captured;
   add_wrapped(
@@ -93,7 +93,7 @@ std::vector<std::string> capture_lines(const WatchedCapture& capture, size_t col
     width = std::max(width, printable_name(now.schemes[i].name).size());
     extra |= now.schemes[i].extra_bits > 0;
   }
-  // Names give way to the rates; a bar is drawn where there is room for one.
+  // The rates come first; names are cut, and a bar is drawn only where there is room.
   const size_t rates = 2 + 8 + 8 + (extra ? 8 : 0);
   width = std::min(width, std::max<size_t>(8, columns > rates ? columns - rates : 0));
   const size_t left = columns > rates + width + 2 ? columns - rates - width - 2 : 0;

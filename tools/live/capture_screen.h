@@ -9,23 +9,22 @@
 
 namespace tilepress {
 
-/// One capture on the screen.
 struct WatchedCapture {
   std::string path;
   LiveState before{}, now{};
-  double elapsed_s = 0;  ///< between the two snapshots; 0 = there is only one
+  double elapsed_s = 0;  ///< between the two snapshots; 0 = there is one snapshot only
   bool ended = false;
 };
 
-/// The lines of one capture, each at most `columns` wide: program and size, frames per second and counts,
-/// what capturing costs, and a line per scheme with its rate over the run and of the last frame; where a scheme
-/// causes further traffic, also the run's rate with it.
+/// Returns the lines of one capture, each at most `columns` wide: program and size, frames per second and
+/// counts, costs, and a line per scheme with its rate over the run and in the last frame. A scheme that
+/// causes further traffic also has the run's rate with it.
 std::vector<std::string> capture_lines(const WatchedCapture& capture, size_t columns);
 
-/// A name from shared memory, what is not printable as '?'.
+/// Returns a name from shared memory, with '?' for each character that is not printable ASCII.
 std::string printable_name(const char (&name)[kLiveNameBytes]);
 
-/// Frames per second captured between the snapshots; NaN if there is one only.
+/// Returns the frames captured per second between the snapshots; NaN with one snapshot.
 double frames_per_second(const WatchedCapture& capture);
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Heat colours: linear between the map's colours.
+// Heat colours: linear interpolation.
 #include "live/heat_colors.h"
 
 #include <algorithm>

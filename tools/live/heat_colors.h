@@ -1,4 +1,4 @@
-// Heat colours: dark for few bits, yellow for many, as the report and the live view show blocks.
+// Heat colours: how the report and the live view show the bits of blocks, dark for few and yellow for many.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 
 namespace tilepress {
 
-/// Nine colours of the viridis map, evenly spaced: brightness alone tells the order.
+/// Nine evenly spaced colours of the viridis map, ordered by brightness.
 constexpr std::array<std::array<uint8_t, 3>, 9> kViridis = {{{68, 1, 84},
                                                              {71, 44, 122},
                                                              {59, 81, 139},
@@ -17,7 +17,7 @@ constexpr std::array<std::array<uint8_t, 3>, 9> kViridis = {{{68, 1, 84},
                                                              {170, 220, 50},
                                                              {253, 231, 37}}};
 
-/// R, G, B of a share of a raw block's bits, 0..1.
+/// Returns R, G, B for a share of a raw block's bits, 0..1.
 std::array<uint8_t, 3> heat_color(double share);
 
 }  // namespace tilepress

@@ -1,11 +1,11 @@
-// Running captures: found by the page that each keeps.
+// Running captures: each has a live page in its folder.
 #include "live/running_captures.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "tilepress/run_lock.h"
 #include "tilepress/live_page.h"
+#include "tilepress/run_lock.h"
 
 namespace tilepress {
 namespace {

@@ -1,4 +1,4 @@
-// Running captures: the run directories below some folders that a capture is writing to.
+// Running captures: finds the run directories that captures are writing to.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace tilepress {
 
-/// Run directories with a live page, at or up to four levels below the folders, in the order of their names.
+/// Returns the run directories with a live page, at most four levels below the folders, sorted.
 std::vector<std::string> find_running_captures(const std::vector<std::string>& folders);
 
-/// Whether the capture still goes on: it has its page, and a process of any PID namespace writes the run.
+/// Whether the capture still runs: its page exists, and a process of any PID namespace writes the run.
 bool capture_runs(const std::string& run_path);
 
 }  // namespace tilepress

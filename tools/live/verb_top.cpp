@@ -1,4 +1,4 @@
-// tilepress top: running captures in a terminal, as they go.
+// tilepress top: shows running captures in the terminal.
 #include <poll.h>
 #include <signal.h>
 #include <sys/ioctl.h>
@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 std::atomic<bool> interrupted{false};
 
-/// The terminal while the view is open: other screen, no cursor, keys without Enter. Restored on destruction.
+/// Switches the terminal to its other screen, without cursor and line input. The destructor restores it.
 class LiveTerminal {
  public:
   LiveTerminal() {
@@ -44,7 +44,7 @@ class LiveTerminal {
     std::fflush(stdout);
     if (keys_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
   }
-  /// Waits for a key; 0 if none came.
+  /// Waits for a key. Returns 0 if none came.
   char key(int wait_ms) const {
     pollfd input{STDIN_FILENO, POLLIN, 0};
     char pressed = 0;
@@ -64,7 +64,7 @@ struct Watch {
   Clock::time_point read_at;
 };
 
-/// All captures at or below the folders, and their last two snapshots.
+/// The captures at or below the folders, with their last two snapshots.
 class CaptureList {
  public:
   explicit CaptureList(const std::vector<std::string>& folders) : folders_(folders) {}
@@ -131,10 +131,10 @@ int verb_top(int argc, char** argv) {
   CLI::App app{
       "Shows running captures: frames per second, rates, FVC coverage, queue and cost. It only reads."};
   app.add_option("DIR", folders, "Output folders of `tilepress run` (default: tilepress-out)");
-  app.add_option("--interval", interval_s, "Seconds between two looks (default: 1)")
+  app.add_option("--interval", interval_s, "Seconds between two updates (default: 1)")
       ->type_name("S")
       ->check(CLI::Range(0.05, 3600.0));
-  app.add_flag("--once", once, "Print what runs now and end; exit 3 if nothing does");
+  app.add_flag("--once", once, "Print the running captures once; exit 3 if there is none");
   if (const auto stop = parse_command_line(app, argc, argv)) return *stop;
   if (folders.empty()) folders = {"tilepress-out"};
 
@@ -143,7 +143,7 @@ int verb_top(int argc, char** argv) {
   const int wait_ms = static_cast<int>(interval_s * 1000);
   if (once || !isatty(STDOUT_FILENO)) {
     if (captures.empty()) return fail(kExitNothingCaptured, folders.front() + ": no running capture");
-    poll(nullptr, 0, wait_ms);  // a second look makes frames per second
+    poll(nullptr, 0, wait_ms);  // frames per second need a second snapshot
     captures.refresh();
     for (const std::string& line : captures.lines(200)) std::printf("%s\n", line.c_str());
     return kExitDone;
@@ -151,7 +151,7 @@ int verb_top(int argc, char** argv) {
   struct sigaction action {};
   action.sa_handler = [](int) { interrupted = true; };
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
-  action.sa_handler = [](int) {};  // ends the wait: the screen is drawn for its new size
+  action.sa_handler = [](int) {};  // ends the wait, so that the screen is drawn in its new size
   sigaction(SIGWINCH, &action, nullptr);
   const LiveTerminal terminal;
   for (char key = 0; !interrupted && key != 'q' && key != 'Q'; key = terminal.key(wait_ms)) {

@@ -1,5 +1,5 @@
-// Capture watch: asks twice a second, so that a capture whose window is gone hears no more within two
-// seconds.
+// Capture watch: asks for pictures twice a second. A capture stops making them two seconds after the last
+// request.
 #include "live/view/capture_watch.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Capture watch: one running capture as the window sees it, attached and left without a trace.
+// Capture watch: the running capture that the window shows.
 #pragma once
 
 #include <chrono>
@@ -14,19 +14,19 @@ class CaptureWatch {
   /// Looks for running captures below `folder`, a run directory or a folder of some.
   explicit CaptureWatch(std::string folder) : folder_(std::move(folder)) {}
 
-  /// Asks for pictures while `wanted`, takes what is new. True if there is something new to show.
+  /// Asks for pictures while `wanted`, and reads what is new. Returns true if there is something new to show.
   bool refresh(bool wanted);
-  /// The next of the running captures; the same one if there is no other.
+  /// Attaches to the next of the running captures, or to the same one if there is no other.
   void attach_next();
 
   bool attached() const { return reader_ != nullptr; }
   const std::string& folder() const { return folder_; }
-  /// Why the last capture found could not be attached to, one line; empty if there was none.
+  /// Why attaching to the last capture found failed, one line; empty if it did not.
   const std::string& error() const { return error_; }
   const WatchedCapture& capture() const { return capture_; }
   bool has_picture() const { return picture_.head.number > 0; }
   const LivePicture& picture() const { return picture_; }
-  /// errno of pictures that the capture cannot give, or 0.
+  /// The errno of a picture that the capture could not write, or 0.
   int picture_error() const { return reader_ ? reader_->picture_error() : 0; }
   size_t index() const { return index_; }  ///< of `count` running captures
   size_t count() const { return count_; }

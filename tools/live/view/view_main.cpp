@@ -1,18 +1,20 @@
-// tilepress-view: the window of `tilepress view`. It maps what the capture shares and draws elsewhere:
-// nothing of it is in the captured program.
+// tilepress-view: the window of `tilepress view`. It maps the files that the capture shares and draws in its
+// own process.
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 
-#include "streams/output_file.h"
-#include "streams/standard_streams.h"
 #include "live/view/view_panel.h"
 #include "live/view/view_request.h"
+#include "streams/messages.h"
+#include "streams/output_file.h"
+#include "streams/standard_streams.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
@@ -32,9 +34,20 @@ constexpr CanvasColor kBackground{16, 17, 20};
 
 std::string glfw_error;
 
-int fail(int status, const std::string& line) {
-  std::fprintf(stderr, "tilepress: view: %s\n", line.c_str());
-  return status;
+/// Keys without a character.
+constexpr std::pair<int, ViewKey> kKeys[] = {
+    {GLFW_KEY_LEFT, ViewKey::kPrevious}, {GLFW_KEY_UP, ViewKey::kPrevious}, {GLFW_KEY_RIGHT, ViewKey::kNext},
+    {GLFW_KEY_DOWN, ViewKey::kNext},     {GLFW_KEY_TAB, ViewKey::kOther},   {GLFW_KEY_F1, ViewKey::kHelp},
+    {GLFW_KEY_ESCAPE, ViewKey::kQuit}};
+
+/// Characters as typed, in any keyboard layout.
+constexpr std::pair<char32_t, ViewKey> kCharacters[] = {
+    {U'q', ViewKey::kQuit},   {U'Q', ViewKey::kQuit},    {U'h', ViewKey::kHeat},   {U'H', ViewKey::kHeat},
+    {U'f', ViewKey::kFit},    {U'F', ViewKey::kFit},     {U' ', ViewKey::kFreeze}, {U'+', ViewKey::kLarger},
+    {U'=', ViewKey::kLarger}, {U'-', ViewKey::kSmaller}, {U'?', ViewKey::kHelp}};
+
+int fail_view(int status, const std::string& line) {
+  return fail(status, "view: " + line);
 }
 
 class ViewWindow {
@@ -43,7 +56,7 @@ class ViewWindow {
     state_.overlay = request.overlay;
     state_.zoom = request.zoom;
   }
-  bool open(std::string& error);
+  Result<void> open();
   int run();
   ~ViewWindow() {
     if (window_ != nullptr) glfwDestroyWindow(window_);
@@ -57,8 +70,8 @@ class ViewWindow {
   double fitting() const {
     return fitting_zoom(layout_.picture, watch_.picture().head.width, watch_.picture().head.height);
   }
-  void press(int key, int modifiers);
-  void type(unsigned character);
+  void press(int key);
+  void type(char32_t character);
   void scroll(double steps);
   void drag(double x, double y);
   void choose_asked_scheme();
@@ -85,26 +98,21 @@ class ViewWindow {
   std::string shown_path_, title_;
 };
 
-bool ViewWindow::open(std::string& error) {
+Result<void> ViewWindow::open() {
   glfwWindowHint(GLFW_DOUBLEBUFFER, GLFW_TRUE);
   glfwWindowHint(GLFW_FOCUS_ON_SHOW, request_.screenshot.empty() ? GLFW_TRUE : GLFW_FALSE);
   window_ = glfwCreateWindow(static_cast<int>(request_.width), static_cast<int>(request_.height),
                              "tilepress view", nullptr, nullptr);
-  if (window_ == nullptr) {
-    error = "no window with OpenGL: " + glfw_error;
-    return false;
-  }
+  if (window_ == nullptr) return Error{ErrorKind::kSystem, "no window with OpenGL: " + glfw_error};
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
   float scale_x = 1, scale_y = 1;
   glfwGetWindowContentScale(window_, &scale_x, &scale_y);
-  if (!canvas_.start(std::round(kTextPixels * std::clamp(scale_y, 1.0f, 4.0f)))) {
-    error = "the font cannot be read";
-    return false;
-  }
+  if (!canvas_.start(std::round(kTextPixels * std::clamp(scale_y, 1.0f, 4.0f))))
+    return Error{ErrorKind::kSystem, "the font cannot be read"};
   glfwSetWindowUserPointer(window_, this);
-  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
-    if (action != GLFW_RELEASE) of(window).press(key, modifiers);
+  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
+    if (action != GLFW_RELEASE) of(window).press(key);
   });
   glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) { of(window).type(character); });
   glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double steps) { of(window).scroll(steps); });
@@ -114,68 +122,19 @@ bool ViewWindow::open(std::string& error) {
   });
   glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { of(window).dirty_ = true; });
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) { of(window).dirty_ = true; });
-  return true;
+  return {};
 }
 
-void ViewWindow::press(int key, int) {
-  ViewKey pressed{};
-  switch (key) {
-    case GLFW_KEY_LEFT:
-    case GLFW_KEY_UP:
-      pressed = ViewKey::kPrevious;
-      break;
-    case GLFW_KEY_RIGHT:
-    case GLFW_KEY_DOWN:
-      pressed = ViewKey::kNext;
-      break;
-    case GLFW_KEY_TAB:
-      pressed = ViewKey::kOther;
-      break;
-    case GLFW_KEY_F1:
-      pressed = ViewKey::kHelp;
-      break;
-    case GLFW_KEY_ESCAPE:
-      pressed = ViewKey::kQuit;
-      break;
-    default:
-      return;
-  }
-  state_.press(pressed, scheme_count(), fitting());
+void ViewWindow::press(int key) {
+  for (const auto& [pressed, meaning] : kKeys)
+    if (pressed == key) state_.press(meaning, scheme_count(), fitting());
   dirty_ = true;
 }
 
-/// Letters as typed, whatever the keyboard's layout.
-void ViewWindow::type(unsigned character) {
-  const auto press = [&](ViewKey key) { state_.press(key, scheme_count(), fitting()); };
-  switch (character) {
-    case 'q':
-    case 'Q':
-      press(ViewKey::kQuit);
-      break;
-    case 'h':
-    case 'H':
-      press(ViewKey::kHeat);
-      break;
-    case 'f':
-    case 'F':
-      press(ViewKey::kFit);
-      break;
-    case ' ':
-      press(ViewKey::kFreeze);
-      break;
-    case '+':
-    case '=':
-      press(ViewKey::kLarger);
-      break;
-    case '-':
-      press(ViewKey::kSmaller);
-      break;
-    case '?':
-      press(ViewKey::kHelp);
-      break;
-    default:
-      if (character >= '1' && character <= '9') state_.choose_scheme(character - '1', scheme_count());
-  }
+void ViewWindow::type(char32_t character) {
+  for (const auto& [typed, meaning] : kCharacters)
+    if (typed == character) state_.press(meaning, scheme_count(), fitting());
+  if (character >= U'1' && character <= U'9') state_.choose_scheme(character - U'1', scheme_count());
   dirty_ = true;
 }
 
@@ -243,7 +202,7 @@ void ViewWindow::draw() {
     const ViewRect place = picture_place(state_, layout_.picture, head.width, head.height);
     canvas_.clip(layout_.picture);
     if (state_.overlay != Overlay::kHeatOnly) canvas_.draw(frame_, place);
-    // The last blocks may reach beyond the frame.
+    // The last blocks may extend beyond the frame.
     if (state_.overlay != Overlay::kOff)
       canvas_.draw(heat_, place, static_cast<double>(head.width) / static_cast<double>(head.blocks_x * 8),
                    static_cast<double>(head.height) / static_cast<double>(head.blocks_y * 8));
@@ -284,13 +243,12 @@ int ViewWindow::write_screenshot() {
   const auto append = [](void* to, void* bytes, int size) {
     static_cast<OutputFile*>(to)->write({static_cast<const char*>(bytes), static_cast<size_t>(size)});
   };
-  if (!file.open(request_.screenshot, true, error)) return fail(1, error);
+  if (!file.open(request_.screenshot, true, error)) return fail_view(1, error);
   if (stbi_write_png_to_func(append, &file, width_, height_, 3, image.bytes.data(), width_ * 3) == 0)
-    return fail(1, request_.screenshot + ": cannot be encoded");
-  if (!file.commit(error)) return fail(1, error);
+    return fail_view(1, request_.screenshot + ": cannot be encoded");
+  if (!file.commit(error)) return fail_view(1, error);
   const LiveState& state = watch_.picture().head.state;
-  std::fprintf(stderr, "%s: frame %llu of surface %llu\n", request_.screenshot.c_str(),
-               static_cast<unsigned long long>(state.frame), static_cast<unsigned long long>(state.surface));
+  show(fmt::format("{}: frame {} of surface {}\n", request_.screenshot, state.frame, state.surface));
   return 0;
 }
 
@@ -316,9 +274,10 @@ int ViewWindow::run() {
     }
     if (screenshot && std::chrono::steady_clock::now() - begin > std::chrono::seconds(request_.wait_s)) {
       if (!watch_.attached())
-        return fail(3, watch_.error().empty() ? request_.folder + ": no running capture" : watch_.error());
-      return fail(3,
-                  watch_.capture().path + ": no frame came within " + std::to_string(request_.wait_s) + " s");
+        return fail_view(3,
+                         watch_.error().empty() ? request_.folder + ": no running capture" : watch_.error());
+      return fail_view(
+          3, watch_.capture().path + ": no frame came within " + std::to_string(request_.wait_s) + " s");
     }
     glfwWaitEventsTimeout(kPollSeconds);
   }
@@ -327,18 +286,19 @@ int ViewWindow::run() {
 
 int view(int argc, char** argv) {
   const auto request = from_arguments({argv + 1, argv + argc});
-  if (!request) return fail(2, "this is a part of tilepress: use tilepress view");
+  if (!request) return fail_view(2, "this is a part of tilepress: use tilepress view");
   glfwSetErrorCallback([](int, const char* text) { glfw_error = text; });
   if (glfwInit() != GLFW_TRUE) {
     const char* display = std::getenv("DISPLAY");
-    return fail(1, display == nullptr || *display == 0 ? "no display: DISPLAY is not set"
-                                                       : std::string("no display: cannot open ") + display);
+    return fail_view(1, display == nullptr || *display == 0
+                            ? "no display: DISPLAY is not set"
+                            : std::string("no display: cannot open ") + display);
   }
   int status = 0;
   {
     ViewWindow window(*request);
-    std::string error;
-    status = window.open(error) ? window.run() : fail(1, error);
+    const auto opened = window.open();
+    status = opened ? window.run() : fail_view(1, opened.error().text);
   }
   glfwTerminate();
   return status;

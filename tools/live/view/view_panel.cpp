@@ -1,5 +1,4 @@
-// View panel: texts from the picture's own numbers, so that what stands beside a frozen picture belongs to
-// it.
+// View panel: texts from the picture's own numbers, so that they match a frozen picture.
 #include "live/view/view_panel.h"
 
 #include <fmt/format.h>
@@ -37,7 +36,7 @@ std::string rate_text(uint64_t raw, uint64_t moved) {
 }
 
 std::string cut(std::string text, size_t columns) {
-  if (text.size() > columns) text = text.substr(0, columns - 1) + '\xBB';  // », the text goes on
+  if (text.size() > columns) text = text.substr(0, columns - 1) + '\xBB';  // », the text is cut
   return text;
 }
 
@@ -98,7 +97,7 @@ std::vector<std::string> rate_texts(const LiveState& state) {
     extra |= state.schemes[i].extra_bits > 0 || state.schemes[i].frame_extra_bits > 0;
     width = std::max(width, printable_name(state.schemes[i].name).size());
   }
-  // Digit, spaces and the columns of rates take the rest.
+  // The digit, spaces and the columns of rates need the rest.
   width = std::min(width, kPanelColumns - 4 - 16 - (extra ? 8 : 0));
   std::vector<std::string> out = {
       fmt::format("  {:<{}} {:>7} {:>7}{}", "rate of", width, "run", "frame", extra ? "  +extra" : "")};
@@ -144,7 +143,7 @@ std::vector<std::string> block_texts(const LivePicture& picture, size_t scheme,
 }
 
 size_t panel_lines(const CaptureWatch& watch) {
-  // Seven of the capture, the table, four of the scale, five of the blocks, the hint, and the air between.
+  // Seven for the capture, the table, four for the scale, five for the blocks, the hint, and empty lines.
   return 7 + 1 + std::max<size_t>(1, watch.capture().now.scheme_count) + 4 + 5 + 1 + 3;
 }
 

@@ -1,4 +1,4 @@
-// View pixels: the canonical words of the codec to bytes for a texture.
+// View pixels: from the codec's canonical words to the bytes of a texture.
 #include "live/view/view_pixels.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// View pixels: a live picture as colours for the screen, and what its blocks say.
+// View pixels: converts a live picture to colours for the screen, and sums up its blocks.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@ struct ScreenImage {
   std::vector<uint8_t> bytes;
 };
 
-/// The frame, opaque as on a screen, each channel widened to 8 bits. Every `step`th pixel of every `step`th
-/// row, step being the least at which no side is longer than `longest_side`.
+/// Returns the frame, opaque, each channel widened to 8 bits. If a side is longer than `longest_side`, the
+/// image has every n-th pixel of every n-th row, with the smallest n that makes both sides fit.
 ScreenImage frame_image(const LivePicture& picture, uint32_t longest_side);
 
-/// A pixel per block: the heat colour of its bits. Opaque, or the clearer the fewer bits, so that the frame
-/// below is seen. Empty if the scheme has no bits.
+/// Returns a pixel per block, the heat colour of its bits: opaque, or more transparent for fewer bits, so
+/// that the frame below shows. Empty if the scheme has no bits.
 ScreenImage heat_image(const LivePicture& picture, size_t scheme, bool opaque);
 
 struct BlockSummary {
-  uint64_t blocks = 0, raw_blocks = 0;  ///< raw: as large as an uncompressed block
+  uint64_t blocks = 0, raw_blocks = 0;  ///< raw blocks are as large as an uncompressed block
   double mean_bits = 0;
   uint32_t most_bits = 0;
 };

@@ -1,4 +1,4 @@
-// View request: eight arguments in a fixed order; both ends are of one build.
+// View request: eight arguments in a fixed order, because both programs are of one build.
 #include "live/view/view_request.h"
 
 #include <charconv>
@@ -14,13 +14,13 @@ bool parse_number(const std::string& text, uint32_t& out) {
   return status == std::errc() && next == end;
 }
 
-}  // namespace
-
 std::optional<Overlay> parse_overlay(const std::string& word) {
   for (int i = 0; i < 3; ++i)
     if (word == kOverlayNames[i]) return static_cast<Overlay>(i);
   return std::nullopt;
 }
+
+}  // namespace
 
 std::vector<std::string> to_arguments(const ViewRequest& request) {
   return {request.folder,

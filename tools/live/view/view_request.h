@@ -1,5 +1,5 @@
-// View request: what `tilepress view` asks of the window, a program of its own so that no other verb loads
-// GL.
+// View request: what `tilepress view` passes to tilepress-view. That is a program of its own, so that no
+// other verb loads GL.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,8 @@ struct ViewRequest {
   uint32_t wait_s = 10;  ///< for a frame to take a screenshot of
 };
 
-/// As the window's argv from [1] on, and back; nothing if they are not such.
+/// To the argv of tilepress-view from [1] on, and back. Returns nothing for other arguments.
 std::vector<std::string> to_arguments(const ViewRequest& request);
 std::optional<ViewRequest> from_arguments(const std::vector<std::string>& arguments);
-
-/// "blend", "only", "off"; nothing for other words.
-std::optional<Overlay> parse_overlay(const std::string& word);
 
 }  // namespace tilepress

@@ -18,7 +18,7 @@ struct ViewRect {
   }
 };
 
-/// Nothing here knows of windows or GL.
+/// Independent of windows and GL.
 struct ViewState {
   size_t scheme = 0;
   Overlay overlay = Overlay::kBlended;
@@ -28,18 +28,18 @@ struct ViewState {
 
   void press(ViewKey key, size_t scheme_count, double fitting_zoom);
   void choose_scheme(size_t index, size_t scheme_count);
-  /// Larger or smaller by `steps`, keeping the frame's point under (x, y) of `area` where it is.
+  /// Zooms by `steps` and keeps the frame's point at (x, y) of `area` in place.
   void zoom_at(double steps, double x, double y, const ViewRect& area, double fitting_zoom);
 };
 
-/// The zoom at which `width` x `height` pixels fill `area` without being cut; whole numbers from 1 up.
+/// Returns the zoom at which `width` x `height` pixels fill `area` uncut; a whole number if 1 or more.
 double fitting_zoom(const ViewRect& area, uint64_t width, uint64_t height);
 
-/// Where the frame lies in the window: in the middle of `area`, on whole pixels.
+/// Returns the frame's place in the window: the middle of `area`, on whole pixels.
 ViewRect picture_place(const ViewState& state, const ViewRect& area, uint64_t width, uint64_t height);
 
-/// Where picture and panel go: side by side in a wide window, one above the other in a narrow one.
-/// `panel_width` and `panel_height`: what the panel's text takes.
+/// Puts picture and panel side by side in a wide window, one above the other in a narrow one. `panel_width`
+/// and `panel_height` are the size of the panel's text.
 struct ViewLayout {
   ViewRect picture, panel;
 };

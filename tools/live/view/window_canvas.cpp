@@ -1,5 +1,4 @@
-// Window canvas: OpenGL 1.1, which every driver with windows has, and a font of fixed width, so that text is
-// cells.
+// Window canvas: OpenGL 1.1, which every driver with windows has, and a monospaced font in one texture.
 #include "live/view/window_canvas.h"
 
 #include <GL/gl.h>
@@ -10,7 +9,7 @@
 
 #include "live/view/embedded_font.h"
 
-// The header of the library has unused functions and conversions of its own.
+// The library's header has unused functions and conversions.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wsign-compare"

@@ -1,4 +1,4 @@
-// Window canvas: rectangles, pictures and text in window pixels, origin at the top left, through OpenGL 1.1.
+// Window canvas: draws rectangles, pictures and text with OpenGL 1.1, in window pixels from the top left.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct CanvasColor {
   uint8_t red, green, blue, alpha = 255;
 };
 
-/// A picture on the graphics side. Pixels stay sharp when it is enlarged.
+/// A picture in graphics memory. Its pixels stay sharp when enlarged.
 class CanvasTexture {
  public:
   void set(const ScreenImage& image);
@@ -26,19 +26,19 @@ class CanvasTexture {
   uint32_t width_ = 0, height_ = 0;
 };
 
-/// Needs a current context for as long as it is used.
+/// Requires a current context.
 class WindowCanvas {
  public:
-  /// `text_pixels`: height of a line of text. False if the font cannot be used.
+  /// `text_pixels`: height of a line of text. Returns false if the font cannot be used.
   bool start(double text_pixels);
-  /// Clears; from here on coordinates are those of a window of this size.
+  /// Clears the window, and sets its size for all coordinates after this.
   void begin(int width, int height, CanvasColor background);
   void clip(const ViewRect& area);
   void no_clip();
   void fill(const ViewRect& place, CanvasColor color);
-  /// `place` is filled with the part of the picture from the top left to (right, bottom), both 0..1.
+  /// Fills `place` with the part of the picture from the top left to (right, bottom), both 0..1.
   void draw(const CanvasTexture& texture, const ViewRect& place, double right = 1, double bottom = 1);
-  /// Latin-1 in a font of fixed width; (x, y) is the top left of the line. Returns where the text ends.
+  /// Draws Latin-1 in a monospaced font; (x, y) is the top left of the line. Returns the x where it ends.
   double text(double x, double y, std::string_view text, CanvasColor color);
   double character_width() const { return cell_width_; }
   double line_height() const { return cell_height_; }
@@ -50,7 +50,7 @@ class WindowCanvas {
   uint32_t longest_side_ = 0;
 };
 
-/// What the window shows now, R,G,B rows from the top.
+/// Returns what the window shows, R,G,B rows from the top.
 ScreenImage read_window(int width, int height);
 
 }  // namespace tilepress
