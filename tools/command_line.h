@@ -1,21 +1,13 @@
-// Command line: exit statuses, and CLI11 parsing that ends with one of them.
+// Command line: CLI11 parsing that ends with an exit status.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <optional>
 
+#include "exit_status.h"
 #include "streams/messages.h"
 
 namespace tilepress {
-
-/// Exit statuses (spec §12).
-constexpr int kExitDone = 0;
-constexpr int kExitFailed = 1;
-constexpr int kExitUsage = 2;
-constexpr int kExitNothingCaptured = 3;
-constexpr int kExitLauncherFailed = 125;
-constexpr int kExitNotExecutable = 126;
-constexpr int kExitNotFound = 127;
 
 /// Parses argv ([0] is the verb). Returns the exit status if the verb must stop here: help shown (0), or a
 /// usage error, told in one line (2). Also gives the verb `--config FILE.toml`: the options under their long

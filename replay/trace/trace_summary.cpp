@@ -115,33 +115,13 @@ bool begins_as_trace(const std::string& path) {
 }
 
 const char* name_of(TraceApi api) {
-  switch (api) {
-    case TraceApi::kEgl:
-      return "EGL";
-    case TraceApi::kGlx:
-      return "GLX";
-    case TraceApi::kWgl:
-      return "WGL";
-    case TraceApi::kCgl:
-      return "CGL";
-    case TraceApi::kDirect3d:
-      return "Direct3D";
-    case TraceApi::kUnknown:
-      break;
-  }
-  return "unknown";
+  static constexpr const char* kNames[] = {"unknown", "EGL", "GLX", "WGL", "CGL", "Direct3D"};
+  return kNames[static_cast<size_t>(api)];
 }
 
 const char* name_of(TraceState state) {
-  switch (state) {
-    case TraceState::kTruncated:
-      return "truncated";
-    case TraceState::kCorrupt:
-      return "corrupt";
-    case TraceState::kComplete:
-      break;
-  }
-  return "complete";
+  static constexpr const char* kNames[] = {"complete", "truncated", "corrupt"};
+  return kNames[static_cast<size_t>(state)];
 }
 
 }  // namespace tilepress

@@ -265,7 +265,7 @@ class Failures(ReplayCase):
 
     def test_of_usage_name_the_fault(self):
         for words, line in ((["x.trace", "--api", "vulkan"], "--api: 'vulkan' is none of auto|egl|glx"),
-                            (["x.trace", "--progress", "x"], "--progress: 'x' is none of auto, never, json"),
+                            (["x.trace", "--progress", "x"], "--progress: 'x' is none of auto|never|json"),
                             ([], "no trace given (see tilepress replay --help)"),
                             (["a/x.trace", "b/x.trace"], "a/x.trace and b/x.trace: both would be written to the folder "
                                                          "x (a manifest can give names)"),

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "command_line.h"
+#include "exit_status.h"
 #include "streams/standard_streams.h"
 
 namespace tilepress {

@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include "capture/program_kind.h"
-#include "command_line.h"
+#include "exit_status.h"
+#include "streams/messages.h"
 
 namespace tilepress {
 

@@ -7,7 +7,8 @@
 
 #include "capture/nothing_captured.h"
 #include "capture/overhead_report.h"
-#include "command_line.h"
+#include "exit_status.h"
+#include "streams/messages.h"
 #include "streams/output_file.h"
 
 namespace tilepress {

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 
-#include "command_line.h"
+#include "exit_status.h"
 #include "frames/dumped_frames.h"
 #include "printable.h"
+#include "streams/messages.h"
 
 namespace tilepress {
 namespace {

@@ -13,21 +13,9 @@ namespace tilepress {
 namespace {
 
 const char* status_text(ReplayStatus status) {
-  switch (status) {
-    case ReplayStatus::kDone:
-      return "done";
-    case ReplayStatus::kKept:
-      return "kept";
-    case ReplayStatus::kFailed:
-      return "failed";
-    case ReplayStatus::kInterrupted:
-      return "interrupted";
-    case ReplayStatus::kNothingCaptured:
-      return "nothing captured";
-    case ReplayStatus::kWaiting:
-      break;
-  }
-  return "not replayed";
+  static constexpr const char* kTexts[] = {"not replayed", "done",        "kept",
+                                           "failed",       "interrupted", "nothing captured"};
+  return kTexts[static_cast<size_t>(status)];
 }
 
 std::string category_label(const std::string& category) {

@@ -33,7 +33,7 @@ constexpr const char* kExamples =
 struct VerbOptions {
   ReplayOptions replay;
   std::vector<std::string> traces;
-  std::string manifest, progress_text = "auto";
+  std::string manifest;
   ProgressMode progress = ProgressMode::kAuto;
   unsigned jobs = 1;
   bool verbose = false, quiet = false;
@@ -69,16 +69,14 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
                  "Seconds without a frame after which a retracer counts as hung (default: 300; 0: never)")
       ->type_name("S")
       ->check(CLI::Range(int64_t{0}, int64_t{1} << 30));
-  app.add_option("--progress", options.progress_text, "auto, never or json (default: auto)")
-      ->type_name("MODE");
+  add_choice_option<ProgressMode>(
+      app, "--progress", options.progress,
+      {{"auto", ProgressMode::kAuto}, {"never", ProgressMode::kNever}, {"json", ProgressMode::kJson}},
+      "Progress on standard error (default: auto, if it is a terminal)");
   app.add_flag("-v,--verbose", options.verbose, "Explain each step");
   app.add_flag("-q,--quiet", options.quiet, "No table");
   if (auto status = parse_command_line(app, argc, argv)) return status;
   replay.timeout = std::chrono::seconds(timeout_s);
-  const auto mode = parse_progress_mode(options.progress_text);
-  if (!mode)
-    return fail(kExitUsage, "--progress: '" + options.progress_text + "' is none of auto, never, json");
-  options.progress = *mode;
   if (options.traces.empty() && options.manifest.empty())
     return fail(kExitUsage, "no trace given (see tilepress replay --help)");
   if (replay.run.output == "-") return fail(kExitUsage, "--output -: a replay needs a folder");

@@ -16,10 +16,6 @@ double ratio(uint64_t raw, uint64_t moved) {
   return moved > 0 ? static_cast<double>(raw) / static_cast<double>(moved) : NAN;
 }
 
-std::string rate_text(double rate) {
-  return std::isnan(rate) ? "     -" : fmt::format("{:6.3f}", rate);
-}
-
 std::string bar_of(double rate, size_t columns) {
   const double share = std::isnan(rate) ? 0 : std::clamp(rate / kBarRate, 0.0, 1.0);
   const size_t full = static_cast<size_t>(std::lround(share * static_cast<double>(columns)));
@@ -48,6 +44,11 @@ double milliseconds(uint64_t sum_ns, uint64_t count) {
 }
 
 }  // namespace
+
+std::string rate_text(uint64_t raw_bits, uint64_t moved_bits, int columns) {
+  return moved_bits > 0 ? fmt::format("{:{}.3f}", ratio(raw_bits, moved_bits), columns)
+                        : fmt::format("{:>{}}", "-", columns);
+}
 
 std::string printable_name(const char (&name)[kLiveNameBytes]) {
   std::string out;
@@ -103,11 +104,10 @@ std::vector<std::string> capture_lines(const WatchedCapture& capture, size_t col
   for (size_t i = 0; i < now.scheme_count; ++i) {
     const LiveScheme& scheme = now.schemes[i];
     const double of_run = ratio(scheme.raw_bits, scheme.moved_bits);
-    std::string line =
-        fmt::format("  {:<{}}  {}  {}", printable_name(scheme.name).substr(0, width), width,
-                    rate_text(of_run), rate_text(ratio(scheme.frame_raw_bits, scheme.frame_moved_bits)));
-    if (extra)
-      line.append("  ").append(rate_text(ratio(scheme.raw_bits, scheme.moved_bits + scheme.extra_bits)));
+    std::string line = fmt::format("  {:<{}}  {}  {}", printable_name(scheme.name).substr(0, width), width,
+                                   rate_text(scheme.raw_bits, scheme.moved_bits, 6),
+                                   rate_text(scheme.frame_raw_bits, scheme.frame_moved_bits, 6));
+    if (extra) line.append("  ").append(rate_text(scheme.raw_bits, scheme.moved_bits + scheme.extra_bits, 6));
     if (bar > 0) line.append("  ").append(bar_of(of_run, bar));
     lines.push_back(std::move(line));
   }

@@ -24,6 +24,9 @@ std::vector<std::string> capture_lines(const WatchedCapture& capture, size_t col
 /// Returns a name from shared memory, with '?' for each character that is not printable ASCII.
 std::string printable_name(const char (&name)[kLiveNameBytes]);
 
+/// Returns raw / moved with three decimals, or "-" if nothing moved, right-aligned in `columns`.
+std::string rate_text(uint64_t raw_bits, uint64_t moved_bits, int columns);
+
 /// Returns the frames captured per second between the snapshots; NaN with one snapshot.
 double frames_per_second(const WatchedCapture& capture);
 

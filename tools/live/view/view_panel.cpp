@@ -26,15 +26,6 @@ constexpr const char* kHelp[] = {"left right up down   scheme before, after",
                                  "? F1                 this help",
                                  "q Esc                quit; the program goes on"};
 
-double ratio(uint64_t raw, uint64_t moved) {
-  return moved > 0 ? static_cast<double>(raw) / static_cast<double>(moved) : NAN;
-}
-
-std::string rate_text(uint64_t raw, uint64_t moved) {
-  const double rate = ratio(raw, moved);
-  return std::isnan(rate) ? "      -" : fmt::format("{:7.3f}", rate);
-}
-
 std::string cut(std::string text, size_t columns) {
   if (text.size() > columns) text = text.substr(0, columns - 1) + '\xBB';  // », the text is cut
   return text;
@@ -105,11 +96,11 @@ std::vector<std::string> rate_texts(const LiveState& state) {
     const LiveScheme& scheme = state.schemes[i];
     std::string line = fmt::format("{} {:<{}} {} {}", i < 9 ? fmt::format("{}", i + 1) : " ",
                                    cut(printable_name(scheme.name), width), width,
-                                   rate_text(scheme.raw_bits, scheme.moved_bits),
-                                   rate_text(scheme.frame_raw_bits, scheme.frame_moved_bits));
+                                   rate_text(scheme.raw_bits, scheme.moved_bits, 7),
+                                   rate_text(scheme.frame_raw_bits, scheme.frame_moved_bits, 7));
     if (extra)
       line.append(" ").append(
-          rate_text(scheme.frame_raw_bits, scheme.frame_moved_bits + scheme.frame_extra_bits));
+          rate_text(scheme.frame_raw_bits, scheme.frame_moved_bits + scheme.frame_extra_bits, 7));
     out.push_back(std::move(line));
   }
   return out;
