@@ -99,13 +99,6 @@ fs::path vendor_folder(const std::string& preload_library) {
 
 }  // namespace
 
-std::optional<ShimRoad> parse_shim_road(std::string_view text) {
-  if (text == "auto") return ShimRoad::kAuto;
-  if (text == "preload") return ShimRoad::kPreload;
-  if (text == "glvnd") return ShimRoad::kGlvnd;
-  return std::nullopt;
-}
-
 Result<void> add_shim_environment(std::map<std::string, std::string>& environment, ShimRoad road,
                                   const std::string& preload_library) {
   if (road != ShimRoad::kGlvnd) {

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
-#include <string_view>
 
 #include "tilepress/result.h"
 
@@ -16,8 +14,6 @@ enum class ShimRoad {
   kPreload,  ///< LD_PRELOAD
   kGlvnd,    ///< libglvnd's vendor libraries; reaches plugins opened with RTLD_DEEPBIND
 };
-
-std::optional<ShimRoad> parse_shim_road(std::string_view text);
 
 /// Adds to `environment` the variables that load the shim into a program. Paths of this process's own
 /// variables stay behind those of the shim. `preload_library` is the path of libtilepress-preload.so, without
