@@ -10,7 +10,7 @@
 namespace tilepress {
 namespace {
 
-/// What CLI11 says, or, where it says little, what the user needs.
+/// What CLI11 says, or a clearer text where there is one.
 std::string describe(const CLI::App& app, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     const auto extras = app.remaining();

@@ -9,9 +9,9 @@
 
 namespace tilepress {
 
-/// Parses argv ([0] is the verb). Returns the exit status if the verb must stop here: help shown (0), or a
-/// usage error, told in one line (2). Also gives the verb `--config FILE.toml`: the options under their long
-/// names; what the command line says wins.
+/// Parses argv ([0] is the verb). Returns the exit status if the verb must stop: 0 after printing the help, 2
+/// after printing a usage error. Also adds `--config FILE.toml`, which sets options by their long names. The
+/// command line wins over the file.
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv);
 
 }  // namespace tilepress

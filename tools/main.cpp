@@ -104,7 +104,7 @@ int dispatch(int argc, char** argv) {
   return verb->run(argc - 1, argv + 1);
 }
 
-/// Nothing is thrown on purpose past a verb; what a library throws still ends in one line.
+/// Verbs throw nothing themselves. An exception of a library ends in one line.
 int run_command(int argc, char** argv) {
   try {
     return dispatch(argc, argv);
@@ -113,12 +113,12 @@ int run_command(int argc, char** argv) {
   }
 }
 
-/// The exit status, once standard output has taken all that the verb printed.
+/// Returns the exit status after writing out what the verb printed.
 int end_with(int status) {
-  std::string error;
-  if (flush_standard_output(error) || noted_signal() != 0) return status;
-  if (!error.empty()) fail(kExitFailed, error);
-  return kExitFailed;
+  const bool reported = standard_output_has_failed();
+  const auto flushed = flush_standard_output();
+  if (flushed || noted_signal() != 0) return status;
+  return reported ? kExitFailed : fail(kExitFailed, flushed.error());
 }
 
 }  // namespace

@@ -19,22 +19,21 @@ TemporaryFolder::~TemporaryFolder() {
   if (!path_.empty()) fs::remove_all(path_, code);
 }
 
-bool TemporaryFolder::create(std::string& error) {
+Result<void> TemporaryFolder::create() {
   const char* variable = std::getenv("TMPDIR");
   std::string base = variable != nullptr && variable[0] == '/' ? variable : "/tmp";
   if (base.find_first_of(kSeparators) != std::string::npos) base = "/tmp";
   std::string pattern = base + "/tilepress-XXXXXX";
-  if (mkdtemp(pattern.data()) == nullptr) {
-    error = base + ": " + std::strerror(errno);
-    return false;
-  }
+  if (mkdtemp(pattern.data()) == nullptr)
+    return Error{ErrorKind::kFile, base + ": " + std::strerror(errno)};
   path_ = pattern;
-  return true;
+  return {};
 }
 
-std::string preloadable(const std::string& library, TemporaryFolder& folder, std::string& error) {
+Result<std::string> preloadable(const std::string& library, TemporaryFolder& folder) {
   if (library.find_first_of(kSeparators) == std::string::npos) return library;
-  if (folder.path().empty() && !folder.create(error)) return {};
+  if (folder.path().empty())
+    if (const auto created = folder.create(); !created) return created.error();
   // The program may run as another user.
   std::error_code code;
   fs::permissions(folder.path(), fs::perms(0711), code);

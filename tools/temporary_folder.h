@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "tilepress/result.h"
+
 namespace tilepress {
 
 class TemporaryFolder {
@@ -11,9 +13,8 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   ~TemporaryFolder();
-  /// Makes the folder. Its path has neither spaces nor colons. Returns false and one line in `error` on
-  /// failure.
-  bool create(std::string& error);
+  /// Makes the folder. Its path has neither spaces nor colons.
+  Result<void> create();
   /// Empty before create().
   const std::string& path() const { return path_; }
 
@@ -21,9 +22,8 @@ class TemporaryFolder {
   std::string path_;
 };
 
-/// LD_PRELOAD separates paths by spaces and colons. Returns a path to `library` that has neither, through a
-/// link in `folder` if need be; the folder is made then. Returns an empty path and one line in `error` on
-/// failure.
-std::string preloadable(const std::string& library, TemporaryFolder& folder, std::string& error);
+/// LD_PRELOAD separates paths by spaces and colons. Returns a path to `library` without them. If `library` has
+/// some, the path leads through a link in `folder`, which is made for it.
+Result<std::string> preloadable(const std::string& library, TemporaryFolder& folder);
 
 }  // namespace tilepress

@@ -23,9 +23,8 @@ std::string free_overhead_file(const std::string& folder) {
 
 bool write_overhead(const std::string& folder, bool quiet, const std::vector<OverheadRun>& runs) {
   const std::string path = free_overhead_file(folder);
-  std::string error;
-  if (!write_whole_file(path, overhead_csv(runs), false, error)) {
-    fail(kExitLauncherFailed, error);
+  if (const auto written = write_whole_file(path, overhead_csv(runs), false); !written) {
+    fail(kExitLauncherFailed, written.error());
     return false;
   }
   if (!quiet) show(overhead_text(runs) + "  rows: " + path + "\n");

@@ -56,8 +56,8 @@ void close_and_add(const CapturedProcess& process, const ChildEnd& child, bool q
   RunRecord& run = *read;
   if (!running) {
     if (const auto closed = close_run(end_of(process, child), run); !closed) return note(closed.error().text);
-    std::string error;
-    if (!convert_dumped_frames(process.run_path, error)) note(error);
+    if (const auto converted = convert_dumped_frames(process.run_path); !converted)
+      note(converted.error().text);
   }
   sum.captured += run.frames.size();
   sum.seen += run.counts.seen;

@@ -46,10 +46,10 @@ bool convert_all_dumped_frames(const ReplayBatch& batch) {
   bool good = true;
   for (const auto& replay : batch.replays()) {
     const std::string& path = replay->result().run.path;
-    std::string error;
-    if (path.empty() || convert_dumped_frames(path, error)) continue;
-    fail(kExitFailed, error);
-    good = false;
+    if (path.empty()) continue;
+    const auto converted = convert_dumped_frames(path);
+    if (!converted) fail(kExitFailed, converted.error());
+    good &= static_cast<bool>(converted);
   }
   return good;
 }

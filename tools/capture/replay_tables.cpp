@@ -116,11 +116,8 @@ Result<void> write_replay_csv(const std::string& folder,
   for (const CategoryMean& mean : category_means(replays))
     categories += fmt::format("{},{},{},{},{}\n", category_label(mean.category), csv_field(mean.scheme),
                               mean.traces, csv_number(mean.rate_payload), csv_number(mean.rate));
-  std::string error;
-  if (write_whole_file(folder + "/replay.csv", traces, true, error) &&
-      write_whole_file(folder + "/categories.csv", categories, true, error))
-    return {};
-  return Error{ErrorKind::kFile, error};
+  const auto written = write_whole_file(folder + "/replay.csv", traces, true);
+  return written ? write_whole_file(folder + "/categories.csv", categories, true) : written;
 }
 
 }  // namespace tilepress

@@ -8,10 +8,7 @@ namespace tilepress {
 Result<std::string> preloadable_shim(bool all_targets, TemporaryFolder& links) {
   const auto shim = find_shim(all_targets ? "libtilepress-preload-gl.so" : "libtilepress-preload.so");
   if (!shim) return shim;
-  std::string error;
-  std::string path = preloadable(*shim, links, error);
-  if (path.empty()) return Error{ErrorKind::kFile, error};
-  return path;
+  return preloadable(*shim, links);
 }
 
 Result<std::map<std::string, std::string>> shim_variables(const RunOptions& options,

@@ -38,7 +38,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// What an operation reads and writes; shared by the closures.
+/// What the closures share.
 struct Bench {
   const BenchFrames& frames;
   const ModelOptions model;
@@ -99,8 +99,8 @@ void Bench::add_decode(const SchemeSpec& scheme) {
   SurfaceEngine engine({scheme}, options);
   FrameStatistics out;
   auto surfaces = std::make_shared<std::vector<CompressedSurface>>(frames.pixels.size());
-  for (size_t pass = 0; pass < 2;
-       ++pass)  // the second pass begins with the CCD that a later round would find
+  // The second pass begins with the CCD that a later round would find.
+  for (size_t pass = 0; pass < 2; ++pass)
     for (size_t i = 0; i < frames.pixels.size(); ++i)
       engine.process(view(i), out, std::span(&(*surfaces)[i], 1));
   auto decoder = std::shared_ptr<BlockDecoder>(
@@ -114,7 +114,7 @@ void Bench::add_decode(const SchemeSpec& scheme) {
     const std::span<const uint8_t> payload = surface.payload;
     const uint32_t slot = surface.slot_bytes();
     for (uint64_t i = 0; i < surface.blocks(); ++i) {
-      // Slots lie too far apart for the processor to guess the next.
+      // Slots lie too far apart for the hardware prefetcher.
       if (i + 4 < surface.blocks()) __builtin_prefetch(&payload[(i + 4) * slot]);
       BitReader reader(payload.subspan(i * slot, slot));
       decoder->decode(csb, reader, block);

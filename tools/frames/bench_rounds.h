@@ -19,14 +19,14 @@ struct BenchFrames {
   std::vector<std::vector<std::byte>> pixels;
 };
 
-/// Medians over the rounds. Ratios are of speeds within one round: above 1 is faster.
+/// Medians over the rounds. A ratio above 1 means faster; both speeds come from the same round.
 struct BenchRow {
   std::string scheme;     ///< a scheme, "all", "metrics", "memcpy" or "lz4"
   std::string operation;  ///< statistics, encode, decode, copy, compress
   double mpixels_per_s = 0;
   double ratio_to_memcpy = 0;
   double ratio_to_lz4 = 0;
-  double cycles_per_pixel = 0;  ///< of the time-stamp counter; 0 where the machine has none
+  double cycles_per_pixel = 0;  ///< of the time-stamp counter; 0 on machines without one
 };
 
 std::vector<BenchRow> bench_set(const BenchFrames& frames, const std::vector<SchemeSpec>& schemes,

@@ -19,16 +19,15 @@ class CdfFile {
   CdfFile(const CdfFile&) = delete;
   CdfFile& operator=(const CdfFile&) = delete;
   ~CdfFile();
-  /// Creates the file and writes the header row. An existing file is replaced only with `force`. False and
-  /// one line in `error`.
-  bool open(const std::string& path, bool force, std::string& error);
-  bool is_open() const { return fd_ >= 0; }
-  /// Adds a row per colour of `view`, the pixels of `frame`. False and one line in `error`.
-  bool append(const FrameStatistics& frame, const SurfaceView& view, std::string& error);
+  /// Creates the file and its folder, and writes the header row. Fails with kExists if the file exists and
+  /// `force` is false.
+  Result<void> open(const std::string& path, bool force);
+  /// Adds a row per colour of `view`, the pixels of `frame`.
+  Result<void> append(const FrameStatistics& frame, const SurfaceView& view);
 
  private:
-  /// All of `text` or nothing: what a full disk lets through is cut off again.
-  bool write(const std::string& text, std::string& error);
+  /// Writes all of `text` or nothing.
+  Result<void> write(const std::string& text);
   std::string path_;
   int fd_ = -1;
 };

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "tilepress/compressed_surface.h"
@@ -11,34 +10,35 @@
 
 namespace tilepress {
 
-/// Surfaces that contemporary engines composite in one pass (paper §Multi-Surface Composition).
+/// Surfaces that today's display engines composite in one pass (paper §Multi-Surface Composition).
 constexpr size_t kMaxLayers = 16;
 
-/// One surface on the screen. Layers are given from the bottom up.
+/// One surface on the screen. Layers stand in a list from the bottom up.
 struct Layer {
   CompressedSurface surface;
-  int32_t x = 0, y = 0;  ///< of its top left pixel on the screen; may lie outside
+  uint32_t number = 0;   ///< of the surface in its file
+  int32_t x = 0, y = 0;  ///< place of its top left pixel on the screen; may lie outside
   bool opaque() const {
     return surface.format == PixelFormat::kRgbx8 || surface.format == PixelFormat::kRgb565;
   }
 };
 
-/// What reading one layer took.
+/// The reads of one layer.
 struct LayerTraffic {
   ReadTraffic traffic;
-  uint64_t hidden_blocks = 0;   ///< left out: every pixel of theirs on the screen is below an opaque surface
-  uint64_t outside_blocks = 0;  ///< left out: no pixel on the screen
+  uint64_t hidden_blocks = 0;   ///< not read: all their pixels on the screen are below an opaque surface
+  uint64_t outside_blocks = 0;  ///< not read: they have no pixel on the screen
 };
 
 struct CompositionOptions {
   uint32_t width = 0, height = 0;  ///< screen, pixels
   bool skip_hidden = false;
-  ReadOptions read;  ///< of each surface: it has an rCCD and a CSB cache of its own
+  ReadOptions read;  ///< each surface has an rCCD and a CSB cache of its own
 };
 
-/// Reads each block that the screen needs once. `out` gets an entry per layer. False and one line in `error`
-/// that names the layer by its index.
-bool read_composition(const std::vector<Layer>& layers, const CompositionOptions& options,
-                      std::vector<LayerTraffic>& out, std::string& error);
+/// Reads each block that the screen needs once. Returns an entry per layer. An error names the layer by its
+/// index.
+Result<std::vector<LayerTraffic>> read_composition(const std::vector<Layer>& layers,
+                                                   const CompositionOptions& options);
 
 }  // namespace tilepress

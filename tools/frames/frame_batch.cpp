@@ -7,16 +7,18 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <thread>
 
+#include "frames/stop_watch.h"
 #include "tilepress/frame_pictures.h"
 
 namespace tilepress {
 namespace {
 
-/// Long enough that the frames computed twice hardly count, short enough that rows keep coming.
+/// Long ranges compute few frames twice; short ranges deliver rows sooner.
 constexpr size_t kLongestRange = 64;
-/// How often a thread that waits for a frame looks whether it is to stop.
+/// How often a waiting thread checks whether to stop.
 constexpr std::chrono::milliseconds kStopPeriod{20};
 
 class FrameBatch {
@@ -31,39 +33,35 @@ class FrameBatch {
         range_(std::clamp<size_t>((numbers.size() + jobs - 1) / jobs, 1, kLongestRange)),
         ranges_((numbers.size() + range_ - 1) / range_) {}
 
-  bool run(uint32_t jobs, const std::function<bool(const FrameStatistics&)>& deliver, std::string& error) {
+  Result<bool> run(uint32_t jobs, const DeliverFrame& deliver) {
     std::vector<std::jthread> threads;
     for (uint32_t i = 0; i < std::min<size_t>(jobs, ranges_.size()); ++i)
       threads.emplace_back([this] { work(); });
-    bool good = true;
-    for (Range& range : ranges_)
-      if (!(good = deliver_range(range, deliver, error))) break;
+    Result<bool> done = true;
+    for (size_t i = 0; i < ranges_.size() && done && *done; ++i) done = deliver_range(ranges_[i], deliver);
     stopping_ = true;
-    return good;
+    return done;
   }
 
  private:
   struct Range {
     std::deque<FrameStatistics> ready;
-    bool ended = false;
-    std::string error;
+    std::optional<Result<void>> end;  ///< set once no frame follows
   };
 
-  bool deliver_range(Range& range, const std::function<bool(const FrameStatistics&)>& deliver,
-                     std::string& error) {
+  Result<bool> deliver_range(Range& range, const DeliverFrame& deliver) {
     for (;;) {
       std::unique_lock lock(mutex_);
-      const auto goes_on = [&] { return range.ended || !range.ready.empty(); };
+      const auto goes_on = [&] { return range.end || !range.ready.empty(); };
       while (!changed_.wait_for(lock, kStopPeriod, goes_on))
         if (stop_ != 0) return false;
-      if (range.ready.empty()) {
-        error = range.error;
-        return error.empty();
-      }
+      if (range.ready.empty() && !*range.end) return range.end->error();
+      if (range.ready.empty()) return true;
       const FrameStatistics statistics = std::move(range.ready.front());
       range.ready.pop_front();
       lock.unlock();
-      if (!deliver(statistics)) return false;
+      const auto delivered = deliver(statistics);
+      if (!delivered || !*delivered) return delivered;
     }
   }
 
@@ -71,15 +69,14 @@ class FrameBatch {
     Worker worker{images_.another(), {}, {}, {}};
     if (!pictures_path_.empty()) worker.pictures.open(pictures_path_, options_);
     for (size_t r; !stopping_ && (r = next_range_++) < ranges_.size();) {
-      std::string error = run_range(worker, r);
+      const auto end = run_range(worker, r);
       const std::lock_guard lock(mutex_);
-      ranges_[r].error = std::move(error);
-      ranges_[r].ended = true;
+      ranges_[r].end = end;
       changed_.notify_all();
     }
   }
 
-  /// What a thread needs for itself.
+  /// What each thread has of its own.
   struct Worker {
     ImageFrames images;
     ImageFrame frame;
@@ -87,15 +84,15 @@ class FrameBatch {
     FramePictures pictures;
   };
 
-  /// One line on failure, else empty.
-  std::string run_range(Worker& worker, size_t r) {
+  Result<void> run_range(Worker& worker, size_t r) {
     SurfaceEngine engine(options_.schemes, options_.model);
     const size_t begin = r * range_, end = std::min(begin + range_, numbers_.size());
-    std::string error;
-    for (uint64_t ordinal : engine.history(begin, worker.images.format()))
-      if (stopping_ || !run_frame(worker, engine, ordinal, false, error)) return error;
+    for (uint64_t ordinal : engine.history(begin, worker.images.format())) {
+      if (stopping_) return {};
+      if (const auto done = run_frame(worker, engine, ordinal, false); !done) return done;
+    }
     for (size_t ordinal = begin; ordinal < end && !stopping_; ++ordinal) {
-      if (!run_frame(worker, engine, ordinal, true, error)) return error;
+      if (const auto done = run_frame(worker, engine, ordinal, true); !done) return done;
       const std::lock_guard lock(mutex_);
       ranges_[r].ready.push_back(worker.statistics);
       changed_.notify_all();
@@ -104,30 +101,21 @@ class FrameBatch {
   }
 
   /// `wanted`: false for a frame that only brings the engine up to date.
-  bool run_frame(Worker& worker, SurfaceEngine& engine, uint64_t ordinal, bool wanted, std::string& error) {
-    ImageFrames& images = worker.images;
-    ImageFrame& frame = worker.frame;
+  Result<void> run_frame(Worker& worker, SurfaceEngine& engine, uint64_t ordinal, bool wanted) {
     FrameStatistics& statistics = worker.statistics;
     const uint64_t number = numbers_[ordinal];
-    statistics.time_ns = static_cast<uint64_t>(
-        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - begin_)
-            .count());
-    if (images.read(number, frame, error) != ImageFrames::Outcome::kFrame) {
-      if (error.empty()) error = "frame " + std::to_string(number) + ": is not there any more";
-      return false;
-    }
-    const SurfaceView view{frame.pixels.data(), static_cast<ptrdiff_t>(images.size().width) * 4,
-                           images.size().width, images.size().height,
-                           images.format(),     ByteOrder::kRgba};
+    statistics.time_ns = clock_.nanoseconds();
+    const auto read = worker.images.read(number, worker.frame);
+    if (!read) return read.error();
+    if (!*read)
+      return Error{ErrorKind::kFile, "frame " + std::to_string(number) + ": is not there any more"};
+    const SurfaceView view = worker.images.view(worker.frame);
     statistics.frame = number;
-    statistics.readback_ns = frame.decode_ns;
+    statistics.readback_ns = worker.frame.decode_ns;
     engine.seek(ordinal);
     engine.note_block_bits(wanted ? worker.pictures.bits_for(number) : nullptr);
     engine.process(view, statistics);
-    if (!wanted) return true;
-    const auto written = worker.pictures.write(statistics, view);
-    if (!written) error = written.error().text;
-    return static_cast<bool>(written);
+    return wanted ? worker.pictures.write(statistics, view) : Result<void>();
   }
 
   const std::atomic<int>& stop_;
@@ -136,7 +124,7 @@ class FrameBatch {
   const RunOptions& options_;
   const std::string& pictures_path_;
   const size_t range_;
-  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  const StopWatch clock_;
   std::atomic<size_t> next_range_ = 0;
   std::atomic<bool> stopping_ = false;
   std::mutex mutex_;
@@ -146,12 +134,11 @@ class FrameBatch {
 
 }  // namespace
 
-bool run_frame_batch(const ImageFrames& images, const std::vector<uint64_t>& numbers,
-                     const RunOptions& options, const std::string& pictures_path, uint32_t jobs,
-                     const std::atomic<int>& stop, const std::function<bool(const FrameStatistics&)>& deliver,
-                     std::string& error) {
-  return FrameBatch(images, numbers, options, pictures_path, std::max(1u, jobs), stop)
-      .run(std::max(1u, jobs), deliver, error);
+Result<bool> run_frame_batch(const ImageFrames& images, const std::vector<uint64_t>& numbers,
+                             const RunOptions& options, const std::string& pictures_path, uint32_t jobs,
+                             const std::atomic<int>& stop, const DeliverFrame& deliver) {
+  jobs = std::max(1u, jobs);
+  return FrameBatch(images, numbers, options, pictures_path, jobs, stop).run(jobs, deliver);
 }
 
 }  // namespace tilepress

@@ -13,15 +13,17 @@
 
 namespace tilepress {
 
-/// Runs the frames `numbers` of `images`, on up to `jobs` threads, and hands each to `deliver` in order, on
-/// the calling thread. A frame depends on few frames before it, so the sequence is cut into ranges that run
-/// at once, each preceded by the frames its first one depends on: the results are the same for any number of
-/// jobs. False and one line in `error` if a frame cannot be read or `deliver` returns false; the frames
-/// before it have been delivered. False without a line once `stop` is not 0. The pictures that the options
-/// ask for go below `pictures_path`, unless it is empty.
-bool run_frame_batch(const ImageFrames& images, const std::vector<uint64_t>& numbers,
-                     const RunOptions& options, const std::string& pictures_path, uint32_t jobs,
-                     const std::atomic<int>& stop, const std::function<bool(const FrameStatistics&)>& deliver,
-                     std::string& error);
+/// Takes the figures of a frame. Returns false to end the batch.
+using DeliverFrame = std::function<Result<bool>(const FrameStatistics&)>;
+
+/// Runs the frames `numbers` of `images` on up to `jobs` threads, and gives each to `deliver` in order, on the
+/// calling thread. A frame depends on few frames before it. So the sequence is cut into ranges that run at the
+/// same time, each after the frames that its first frame depends on: the results are the same for any number
+/// of jobs. An error of a frame or of `deliver` ends the batch after all frames before it have been delivered.
+/// Returns false if `stop` became nonzero or `deliver` returned false. The pictures that the options require
+/// go below `pictures_path`, unless it is empty.
+Result<bool> run_frame_batch(const ImageFrames& images, const std::vector<uint64_t>& numbers,
+                             const RunOptions& options, const std::string& pictures_path, uint32_t jobs,
+                             const std::atomic<int>& stop, const DeliverFrame& deliver);
 
 }  // namespace tilepress

@@ -10,7 +10,7 @@
 namespace tilepress {
 namespace {
 
-/// A channel of `from` bits as one of `to` bits: its bits repeated from the top, so 0 stays 0 and full full.
+/// Widens a channel from `from` to `to` bits by repeating its bits from the top: 0 stays 0, full stays full.
 uint32_t widen(uint32_t value, uint32_t from, uint32_t to) {
   uint32_t wide = 0;
   for (int32_t shift = static_cast<int32_t>(to - from); shift > -static_cast<int32_t>(from);
@@ -33,8 +33,8 @@ const char* raw_extension(PixelFormat format) {
   return format == PixelFormat::kRgb10a2 ? "rgb10a2" : "rgba";
 }
 
-bool write_png(const std::string& path, std::span<const uint32_t> words, uint32_t width, uint32_t height,
-               PixelFormat format, bool replace, std::string& error) {
+Result<void> write_png(const std::string& path, std::span<const uint32_t> words, uint32_t width,
+                       uint32_t height, PixelFormat format, bool replace) {
   const FormatTraits& bits = traits(format);
   const bool alpha = format == PixelFormat::kRgba8 || format == PixelFormat::kRgb10a2;
   const uint32_t depth = format == PixelFormat::kRgb10a2 ? 16 : 8;
@@ -48,17 +48,15 @@ bool write_png(const std::string& path, std::span<const uint32_t> words, uint32_
           static_cast<uint16_t>(widen(channel(bits, word, index), bits.channel_bits[c], depth)));
     }
 
-  const ImageLibrary* library = image_library(error);
-  if (library == nullptr) return false;
+  const auto library = image_library();
+  if (!library) return library.error();
   const std::vector<uint8_t> bytes(samples.begin(), samples.end());
   PngPixels pixels{.width = width, .height = height, .channels = channels, .channel_bits = depth};
   pixels.samples = depth == 16 ? static_cast<const void*>(samples.data()) : bytes.data();
   // Into memory first: OpenImageIO does not report a full disk.
-  const std::vector<uint8_t> png = library->encode_png(pixels);
-  if (!png.empty())
-    return write_whole_file(path, {reinterpret_cast<const char*>(png.data()), png.size()}, replace, error);
-  error = path + ": cannot be encoded";
-  return false;
+  const std::vector<uint8_t> png = (*library)->encode_png(pixels);
+  if (png.empty()) return Error{ErrorKind::kSystem, path + ": cannot be encoded"};
+  return write_whole_file(path, {reinterpret_cast<const char*>(png.data()), png.size()}, replace);
 }
 
 }  // namespace tilepress

@@ -1,7 +1,7 @@
 // Read options: the CSB cache and rectangles.
 #include "frames/read_options.h"
 
-#include <charconv>
+#include "frames/number_list.h"
 
 namespace tilepress {
 
@@ -11,21 +11,15 @@ void add_read_options(CLI::App& app, ReadOptions& options) {
       ->type_name("N")
       ->check(CLI::Range(0, 65536));
   app.add_option("--csb-line-bursts", options.csb_line_bursts,
-                 "Bursts in a line of it (default: " + std::to_string(options.csb_line_bursts) + ")")
+                 "Bursts in a line of the CSB cache (default: " + std::to_string(options.csb_line_bursts) + ")")
       ->type_name("N")
       ->check(CLI::Range(1, 65536));
 }
 
 std::optional<PixelRect> parse_rect(const std::string& text) {
-  uint32_t values[4];
-  const char *at = text.data(), *end = at + text.size();
-  for (int i = 0; i < 4; ++i) {
-    const auto [next, status] = std::from_chars(at, end, values[i]);
-    if (status != std::errc() || (i < 3 ? next == end || *next != ',' : next != end)) return std::nullopt;
-    at = next + 1;
-  }
-  if (values[2] == 0 || values[3] == 0) return std::nullopt;
-  return PixelRect{values[0], values[1], values[2], values[3]};
+  const auto values = parse_numbers<uint32_t, 4>(text, ',');
+  if (!values || (*values)[2] == 0 || (*values)[3] == 0) return std::nullopt;
+  return PixelRect{(*values)[0], (*values)[1], (*values)[2], (*values)[3]};
 }
 
 }  // namespace tilepress

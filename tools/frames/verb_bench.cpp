@@ -1,10 +1,12 @@
 // tilepress bench: the speed of each scheme beside memcpy and LZ4, on the same frames in the same run.
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <filesystem>
 
-#include "frames/bench_rounds.h"
 #include "command_line.h"
 #include "common_options.h"
+#include "counted.h"
+#include "frames/bench_rounds.h"
 #include "frames/image_frames.h"
 #include "streams/output_file.h"
 #include "tilepress/csv_table.h"
@@ -15,15 +17,15 @@ namespace tilepress {
 namespace {
 
 constexpr const char* kExamples =
-    "One thread. Each round times every operation once over all frames of a set, one after the other; what "
-    "is\n"
-    "shown is the median over the rounds, ratios being taken within a round. A set is a run of images of "
-    "one\n"
-    "folder. Operations: statistics (traversal, FVC, CCD, sizes of every block), encode (the same and the "
-    "bits\n"
-    "written to memory), decode (blocks restored from those bits). 'all' is all schemes in one pass, "
-    "'metrics'\n"
-    "the frame metrics alone.\n"
+    "The images of one folder that follow each other are a set. Each round runs every operation once over\n"
+    "all frames of a set, on one thread. The table shows medians over the rounds. Ratios compare times of\n"
+    "the same round.\n"
+    "\n"
+    "Operations:\n"
+    "  statistics   traversal, FVC, CCD and the sizes of all blocks\n"
+    "  encode       the same, and the bits of all blocks written to memory\n"
+    "  decode       all blocks restored from those bits\n"
+    "Scheme 'all' is all schemes in one pass; 'metrics' is the frame metrics alone.\n"
     "\n"
     "Examples:\n"
     "  tilepress bench shots/*.png\n"
@@ -36,10 +38,9 @@ struct BenchOptions {
   std::vector<std::string> images;
   std::optional<FrameSize> size;
   uint32_t rounds = 7;
-  std::string simd;
 };
 
-/// Images of one folder that follow each other, decoded.
+/// Images of one folder that follow each other.
 struct ImageSet {
   std::string name;
   std::vector<std::string> paths;
@@ -55,30 +56,28 @@ std::vector<ImageSet> split_sets(const std::vector<std::string>& paths) {
   return sets;
 }
 
-bool load_set(const ImageSet& set, const BenchOptions& options, BenchFrames& out, std::string& error) {
+Result<BenchFrames> load_set(const ImageSet& set, const BenchOptions& options) {
   ImageFrames images;
-  if (!images.open(set.paths, options.size, error)) return false;
-  out.width = images.size().width;
-  out.height = images.size().height;
-  out.format = images.format();
+  if (const auto opened = images.open(set.paths, options.size); !opened) return opened.error();
+  BenchFrames out{images.size().width, images.size().height, images.format(), {}};
   for (uint64_t i = 0;; ++i) {
     ImageFrame frame;
-    const auto outcome = images.read(i, frame, error);
-    if (outcome == ImageFrames::Outcome::kFailed) return false;
-    if (outcome == ImageFrames::Outcome::kEnd) return true;
+    const auto read = images.read(i, frame);
+    if (!read) return read.error();
+    if (!*read) return out;
     if (options.run.takes(i)) out.pixels.push_back(std::move(frame.pixels));
   }
 }
 
-void print_table(const std::string& set, const BenchFrames& frames, const std::vector<BenchRow>& rows) {
-  std::fprintf(stderr, "%s: %zu frames of %ux%u, SIMD target %s\n", set.c_str(), frames.pixels.size(),
-               frames.width, frames.height, std::string(simd_target()).c_str());
-  std::fprintf(stderr, "  %-24s %-11s %10s %12s %9s %8s\n", "scheme", "operation", "Mpixel/s", "cycles/pixel",
-               "/memcpy", "/LZ4");
+std::string table_text(const std::string& set, const BenchFrames& frames, const std::vector<BenchRow>& rows) {
+  std::string out = fmt::format("{}: {} of {}x{}, SIMD target {}\n", set, counted(frames.pixels.size(), "frame"),
+                                frames.width, frames.height, simd_target());
+  out += fmt::format("  {:<24} {:<11} {:>10} {:>12} {:>9} {:>8}\n", "scheme", "operation", "Mpixel/s",
+                     "cycles/pixel", "/memcpy", "/LZ4");
   for (const BenchRow& row : rows)
-    std::fprintf(stderr, "  %-24s %-11s %10.1f %12.2f %9.4f %8.3f\n", row.scheme.c_str(),
-                 row.operation.c_str(), row.mpixels_per_s, row.cycles_per_pixel, row.ratio_to_memcpy,
-                 row.ratio_to_lz4);
+    out += fmt::format("  {:<24} {:<11} {:>10.1f} {:>12.2f} {:>9.4f} {:>8.3f}\n", row.scheme, row.operation,
+                       row.mpixels_per_s, row.cycles_per_pixel, row.ratio_to_memcpy, row.ratio_to_lz4);
+  return out;
 }
 
 void append_csv(const std::string& set, const std::vector<BenchRow>& rows, std::string& csv) {
@@ -90,16 +89,16 @@ void append_csv(const std::string& set, const std::vector<BenchRow>& rows, std::
 
 std::optional<int> parse(int argc, char** argv, BenchOptions& options) {
   CLI::App app(
-      "Times each scheme beside memcpy and LZ4. A table goes to standard error; -o FILE.csv keeps it.");
+      "Measures the speed of each scheme, memcpy and LZ4. Prints a table on standard error.");
   app.footer(kExamples);
   add_model_options(app, options.run);
-  app.add_option("-o,--output", options.csv_path, "CSV file; - for standard output (default: none)")
+  app.add_option("-o,--output", options.csv_path, "CSV file for the table; - for standard output (default: none)")
       ->type_name("FILE");
   app.add_option("IMAGE", options.images, "Images or movies of 8 bits a channel, or raw .rgba files")
       ->type_name("...")
       ->required();
   add_size_option(app, "size", options.size, "Size of raw .rgba frames");
-  app.add_option("--rounds", options.rounds, "Rounds (default: 7)")
+  app.add_option("--rounds", options.rounds, "Number of rounds (default: 7)")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
   app.add_option_function<std::string>(
@@ -121,23 +120,24 @@ std::optional<int> parse(int argc, char** argv, BenchOptions& options) {
 int verb_bench(int argc, char** argv) {
   BenchOptions options;
   if (const auto status = parse(argc, argv, options)) return *status;
-  std::string error;
-  OutputFile file;  // opened first: a path that cannot be written is told before the work
-  if (!options.csv_path.empty() && !file.open(options.csv_path, true, error)) return fail(kExitFailed, error);
+  OutputFile file;  // opened before the work, so that a bad path fails at once
+  if (!options.csv_path.empty())
+    if (const auto opened = file.open(options.csv_path, true); !opened) return fail(kExitFailed, opened.error());
   std::string csv = "set,scheme,operation,mpixels_per_s,ratio_to_memcpy,ratio_to_lz4,cycles_per_pixel\n";
   for (const ImageSet& set : split_sets(options.images)) {
-    BenchFrames frames;
-    if (!load_set(set, options, frames, error)) return fail(kExitFailed, error);
-    if (frames.pixels.empty())
-      return fail(kExitNothingCaptured, set.name + ": no frame left by --frames and --every");
+    const auto frames = load_set(set, options);
+    if (!frames) return fail(kExitFailed, frames.error());
+    if (frames->pixels.empty())
+      return fail(kExitNothingCaptured, set.name + ": --frames and --every leave no frame");
     const std::vector<BenchRow> rows =
-        bench_set(frames, options.run.schemes, options.run.model, options.rounds);
-    print_table(set.name, frames, rows);
+        bench_set(*frames, options.run.schemes, options.run.model, options.rounds);
+    show(table_text(set.name, *frames, rows));
     append_csv(set.name, rows, csv);
   }
   if (!file.is_open()) return kExitDone;
   file.write(csv);
-  return file.commit(error) ? kExitDone : fail(kExitFailed, error);
+  const auto done = file.commit();
+  return done ? kExitDone : fail(kExitFailed, done.error());
 }
 
 }  // namespace tilepress

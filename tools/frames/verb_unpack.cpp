@@ -1,14 +1,14 @@
-// tilepress unpack: the images of a packed file, or a part of one with the bursts it takes.
-#include <cerrno>
+// tilepress unpack: restores the images of a packed file, or reads a part and counts the bursts.
+#include <fmt/format.h>
+
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "command_line.h"
 #include "common_options.h"
+#include "counted.h"
 #include "frames/image_writer.h"
-#include "frames/packed_file.h"
+#include "frames/packed_reader.h"
 #include "frames/read_options.h"
 #include "streams/output_file.h"
 #include "tilepress/csv_table.h"
@@ -56,94 +56,90 @@ std::string part_path(const UnpackOptions& options, const Part& part, PixelForma
   return options.output + "/" + name + "." + (options.format == "png" ? "png" : raw_extension(format));
 }
 
-bool write_part(const UnpackOptions& options, const Part& part, PixelFormat format, std::string& error) {
+Result<void> write_part(const UnpackOptions& options, const Part& part, PixelFormat format) {
   const std::string path = part_path(options, part, format);
   if (options.format == "png")
-    return write_png(path, part.words, part.rect.width, part.rect.height, format, options.force, error);
-  return write_whole_file(path, native_bytes(part.words, format), options.force, error);
+    return write_png(path, part.words, part.rect.width, part.rect.height, format, options.force);
+  return write_whole_file(path, native_bytes(part.words, format), options.force);
 }
 
-void report_part(const UnpackOptions& options, const Part& part, const CompressedSurface& surface) {
+constexpr const char* kCsvHeader =
+    "frame,scheme,x,y,width,height,blocks,burst_bits,payload_bursts,csb_bursts,table_bursts,raw_bursts,"
+    "csb_lookups,csb_misses\n";
+
+std::string csv_row(const Part& part, const CompressedSurface& surface) {
   const ReadTraffic& traffic = part.traffic;
-  const auto number = [](uint64_t value) { return static_cast<unsigned long long>(value); };
-  if (options.csv)
-    std::printf("%u,%s,%u,%u,%u,%u,%llu,%u,%llu,%llu,%llu,%llu,%llu,%llu\n", part.number,
-                csv_field(surface.scheme.text).c_str(), part.rect.x, part.rect.y, part.rect.width,
-                part.rect.height, number(traffic.blocks), surface.burst_bits, number(traffic.payload_bursts),
-                number(traffic.csb_bursts), number(traffic.table_bursts), number(traffic.raw_bursts),
-                number(traffic.csb_lookups), number(traffic.csb_misses));
-  else if (!options.quiet)
-    std::fprintf(
-        stderr,
-        "frame %u, %ux%u at %u,%u, %s: %llu blocks, bursts of %u bits: payload %llu + CSB %llu + tables "
-        "%llu = %llu, raw %llu\n",
-        part.number, part.rect.width, part.rect.height, part.rect.x, part.rect.y, surface.scheme.text.c_str(),
-        number(traffic.blocks), surface.burst_bits, number(traffic.payload_bursts),
-        number(traffic.csb_bursts), number(traffic.table_bursts), number(traffic.moved_bursts()),
-        number(traffic.raw_bursts));
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", part.number, csv_field(surface.scheme.text),
+                     part.rect.x, part.rect.y, part.rect.width, part.rect.height, traffic.blocks,
+                     surface.burst_bits, traffic.payload_bursts, traffic.csb_bursts, traffic.table_bursts,
+                     traffic.raw_bursts, traffic.csb_lookups, traffic.csb_misses);
 }
 
-/// Reads the part of one surface. False and one line in `error`.
-bool read_part(const CompressedSurface& surface, const UnpackOptions& options, Part& part,
-               std::string& error) {
+std::string bursts_text(const Part& part, const CompressedSurface& surface) {
+  const ReadTraffic& traffic = part.traffic;
+  return fmt::format(
+      "frame {}, {}x{} at {},{}, {}: {}, bursts of {} bits: payload {} + CSB {} + tables {} = {}, raw {}\n",
+      part.number, part.rect.width, part.rect.height, part.rect.x, part.rect.y, surface.scheme.text,
+      counted(traffic.blocks, "block"), surface.burst_bits, traffic.payload_bursts, traffic.csb_bursts,
+      traffic.table_bursts, traffic.moved_bursts(), traffic.raw_bursts);
+}
+
+/// Reads the part of one surface that the options require.
+Result<void> read_part(const CompressedSurface& surface, const UnpackOptions& options, Part& part) {
   part.rect = options.rect.value_or(PixelRect{0, 0, surface.width, surface.height});
   if (uint64_t{part.rect.x} + part.rect.width > surface.width ||
-      uint64_t{part.rect.y} + part.rect.height > surface.height) {
-    error = "--rect reaches beyond the surface of " + std::to_string(surface.width) + "x" +
-            std::to_string(surface.height);
-    return false;
-  }
+      uint64_t{part.rect.y} + part.rect.height > surface.height)
+    return Error{ErrorKind::kBadValue,
+                 fmt::format("--rect reaches beyond the surface of {}x{}", surface.width, surface.height)};
   SurfaceReader reader;
-  if (const auto opened = reader.open(surface, options.read); !opened) {
-    error = opened.error().text;
-    return false;
-  }
-  if (!reader.read_rect(part.rect, part.words)) {
-    error = "bits that no encoder writes";
-    return false;
-  }
+  if (const auto opened = reader.open(surface, options.read); !opened) return opened;
+  if (!reader.read_rect(part.rect, part.words))
+    return Error{ErrorKind::kBadBits, "bits that no encoder writes"};
   part.traffic = reader.traffic();
-  return true;
+  return {};
 }
 
-int unpack(const UnpackOptions& options) {
-  std::string error;
-  errno = 0;
-  std::ifstream file(options.file, std::ios::binary);
-  if (!file || std::filesystem::is_directory(options.file))
-    return fail(kExitFailed, options.file + ": " + (file ? "is a folder" : std::strerror(errno)));
-  PackedFileReader packed;
-  if (!packed.open(file, error)) return fail(kExitFailed, options.file + ": " + error);
-  if (options.frame && *options.frame >= packed.count())
-    return fail(kExitFailed, options.file + ": no frame " + std::to_string(*options.frame) + ", it holds " +
-                                 std::to_string(packed.count()));
-  if (!options.output.empty()) {
-    std::error_code code;
-    std::filesystem::create_directories(options.output, code);
-    if (code) return fail(kExitFailed, options.output + ": " + code.message());
-  }
-  if (options.csv)
-    std::printf(
-        "frame,scheme,x,y,width,height,blocks,burst_bits,payload_bursts,csb_bursts,table_bursts,raw_bursts,"
-        "csb_lookups,csb_misses\n");
+/// Reads the wanted frames, and writes and prints what the options require. Returns the number of images
+/// written.
+Result<uint32_t> unpack_frames(PackedFileReader& packed, const UnpackOptions& options) {
   CompressedSurface surface;
   Part part;
   uint32_t written = 0;
   for (uint32_t number = 0; number < packed.count(); ++number) {
     if (options.frame ? number != *options.frame : !options.frames.contains(number)) continue;
     part.number = number;
-    if (!packed.read(number, surface, error)) return fail(kExitFailed, options.file + ": " + error);
-    if (!read_part(surface, options, part, error))
-      return fail(kExitFailed, options.file + ": surface " + std::to_string(number) + ": " + error);
+    if (const auto read = packed.read(number, surface); !read) return about(options.file, read.error());
+    if (const auto read = read_part(surface, options, part); !read)
+      return about(options.file, about("surface " + std::to_string(number), read.error()));
     if (!options.output.empty()) {
-      if (!write_part(options, part, surface.format, error)) return fail(kExitFailed, error);
+      if (const auto wrote = write_part(options, part, surface.format); !wrote) return wrote.error();
       ++written;
     }
-    if (options.rect || options.csv) report_part(options, part, surface);
+    if (options.csv)
+      std::fputs(csv_row(part, surface).c_str(), stdout);
+    else if (options.rect && !options.quiet)
+      show(bursts_text(part, surface));
   }
-  if (!options.quiet && written > 0)
-    std::fprintf(stderr, "%s: %u frames restored into %s\n", options.file.c_str(), written,
-                 options.output.c_str());
+  return written;
+}
+
+int unpack(const UnpackOptions& options) {
+  const auto file = open_packed_file(options.file);
+  if (!file) return fail(kExitFailed, file.error());
+  PackedFileReader& packed = (*file)->reader;
+  if (options.frame && *options.frame >= packed.count())
+    return fail(kExitFailed, fmt::format("{}: no frame {}, the file holds {}", options.file, *options.frame,
+                                         counted(packed.count(), "frame")));
+  if (!options.output.empty()) {
+    std::error_code code;
+    std::filesystem::create_directories(options.output, code);
+    if (code) return fail(kExitFailed, options.output + ": " + code.message());
+  }
+  if (options.csv) std::fputs(kCsvHeader, stdout);
+  const auto written = unpack_frames(packed, options);
+  if (!written) return fail(kExitFailed, written.error());
+  if (!options.quiet && *written > 0)
+    show(fmt::format("{}: {} restored into {}\n", options.file, counted(*written, "frame"), options.output));
   return kExitDone;
 }
 
@@ -156,7 +152,7 @@ int verb_unpack(int argc, char** argv) {
   app.add_option("FILE", options.file, "A file that tilepress pack wrote")->type_name("FILE")->required();
   app.add_option("-o,--output", options.output, "Folder for the images")->type_name("DIR");
   app.add_option("--format", options.format,
-                 "png, or raw: the pixels as memory holds them (rgba is the same; default: png)")
+                 "png, or raw: the pixels as memory holds them; rgba is the same as raw (default: png)")
       ->type_name("NAME")
       ->check(CLI::IsMember({"png", "raw", "rgba"}));
   add_frames_option(app, options.frames);
@@ -167,15 +163,15 @@ int verb_unpack(int argc, char** argv) {
            options.rect = parse_rect(text);
            if (!options.rect) throw CLI::ValidationError("--rect " + text + ": not X,Y,WIDTH,HEIGHT");
          },
-         "Read only this part and tell the bursts it takes")
+         "Read only this part and print the bursts that the read takes")
       ->type_name("X,Y,W,H");
   add_read_options(app, options.read);
-  app.add_flag("--csv", options.csv, "The bursts as CSV on standard output");
-  app.add_flag("--force", options.force, "Replace images that are there");
-  app.add_flag("-q,--quiet", options.quiet, "Say nothing when all is well");
+  app.add_flag("--csv", options.csv, "Print the bursts as CSV on standard output");
+  app.add_flag("--force", options.force, "Replace images that exist");
+  app.add_flag("-q,--quiet", options.quiet, "Print only errors");
   if (auto status = parse_command_line(app, argc, argv)) return *status;
   if (options.output.empty() && !options.rect && !options.csv)
-    return fail(kExitUsage, "unpack: neither -o DIR nor --rect nor --csv: nothing to do");
+    return fail(kExitUsage, "unpack: nothing to do; give -o DIR, --rect or --csv");
   return unpack(options);
 }
 

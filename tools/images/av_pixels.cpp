@@ -11,6 +11,8 @@ extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
+#include "images/image_errors.h"
+
 namespace tilepress {
 namespace {
 
@@ -31,7 +33,7 @@ bool is_ycbcr(const AVPixFmtDescriptor& format) {
   return format.nb_components >= 3 && (format.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL)) == 0;
 }
 
-/// Formats that are of full range by themselves.
+/// Formats that always have the full range.
 bool is_full_range(AVPixelFormat format) {
   return format == AV_PIX_FMT_YUVJ420P || format == AV_PIX_FMT_YUVJ422P || format == AV_PIX_FMT_YUVJ444P ||
          format == AV_PIX_FMT_YUVJ440P || format == AV_PIX_FMT_YUVJ411P;
@@ -43,55 +45,53 @@ std::string depths_text(const AVPixFmtDescriptor& format) {
   return text;
 }
 
-std::string refusal(AVPixelFormat pixel_format) {
+/// Fails for formats that convert() does not take.
+Result<void> check_format(AVPixelFormat pixel_format) {
   const AVPixFmtDescriptor* format = av_pix_fmt_desc_get(pixel_format);
-  if (format == nullptr) return "has no pixel format that is known";
+  if (format == nullptr) return unsupported("has an unknown pixel format");
   constexpr uint64_t kOther = AV_PIX_FMT_FLAG_BAYER | AV_PIX_FMT_FLAG_HWACCEL | AV_PIX_FMT_FLAG_FLOAT;
   const bool one_bit = pixel_format == AV_PIX_FMT_MONOWHITE || pixel_format == AV_PIX_FMT_MONOBLACK;
   if ((format->flags & kOther) != 0 || (format->flags & AV_PIX_FMT_FLAG_BITSTREAM && !one_bit))
-    return std::string("has pixels of the format ") + format->name + ", which are not taken";
+    return unsupported(std::string("has pixels of the format ") + format->name + ", which are not taken");
   for (int c = 0; c < format->nb_components; ++c) {
-    if (format->comp[c].depth > 8) return deep_refusal(std::to_string(format->comp[c].depth) + "-bit");
-    if (format->comp[c].depth < 8 && !one_bit)
-      return "has pixels of " + depths_text(*format) + " bits; only 8 bits a channel are taken, nothing is widened";
+    const int depth = format->comp[c].depth;
+    if (depth > 8) return deep_channels(std::to_string(depth) + "-bit");
+    if (depth < 8 && !one_bit)
+      return unsupported("has pixels of " + depths_text(*format) +
+                         " bits; only 8 bits a channel are taken, nothing is widened");
   }
   return {};
 }
 
-/// Samples one by one: exact for every layout that the descriptor tells.
+/// A palette entry is 0xAARRGGBB in the processor's byte order.
+void copy_palette_pixels(const AVFrame& frame, std::byte* out) {
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      uint32_t entry = 0;
+      std::memcpy(&entry, frame.data[1] + frame.data[0][y * frame.linesize[0] + x] * 4, sizeof entry);
+      for (const int shift : {16, 8, 0, 24}) *out++ = static_cast<std::byte>(entry >> shift);
+    }
+}
+
+/// Copies sample by sample: exact for every layout that the descriptor has.
 void copy_samples(const AVFrame& frame, const AVPixFmtDescriptor& format, std::byte* out) {
-  const bool palette = (format.flags & AV_PIX_FMT_FLAG_PAL) != 0;
-  const bool gray = !palette && format.nb_components < 3;
-  const auto pixel_format = static_cast<AVPixelFormat>(frame.format);
+  const bool gray = format.nb_components < 3;
+  const int components[4] = {0, gray ? 0 : 1, gray ? 0 : 2, gray ? 1 : 3};  // of R, G, B, A
   const bool one_bit = format.comp[0].depth == 1;
-  const uint16_t flip = pixel_format == AV_PIX_FMT_MONOWHITE ? 1 : 0;
+  const uint16_t flip = frame.format == AV_PIX_FMT_MONOWHITE ? 1 : 0;
   const auto width = static_cast<size_t>(frame.width);
   std::vector<uint16_t> samples(width);
-  for (int y = 0; y < frame.height; ++y) {
-    std::byte* row = out + static_cast<size_t>(y) * width * 4;
-    for (int channel = 0; channel < 4; ++channel) {
-      const int alpha_at = gray ? 1 : 3;
-      const bool absent = channel == 3 && !palette && format.nb_components <= alpha_at;
-      const int component = palette ? 0 : channel == 3 ? alpha_at : gray ? 0 : channel;
-      if (palette) {  // an entry is 0xAARRGGBB in the processor's order
-        for (size_t x = 0; x < width; ++x) {
-          uint32_t entry = 0;
-          const uint8_t index = frame.data[0][y * frame.linesize[0] + static_cast<ptrdiff_t>(x)];
-          std::memcpy(&entry, frame.data[1] + index * 4, sizeof entry);
-          row[x * 4 + static_cast<size_t>(channel)] =
-              static_cast<std::byte>(entry >> (channel == 3 ? 24 : 16 - 8 * channel));
-        }
-        continue;
-      }
+  for (int y = 0; y < frame.height; ++y, out += width * 4)
+    for (size_t channel = 0; channel < 4; ++channel) {
+      const bool absent = components[channel] >= format.nb_components;
       if (!absent)
         av_read_image_line2(samples.data(), const_cast<const uint8_t**>(frame.data), frame.linesize, &format, 0,
-                            y, component, frame.width, 0, sizeof(uint16_t));
+                            y, components[channel], frame.width, 0, sizeof(uint16_t));
       for (size_t x = 0; x < width; ++x) {
         const uint16_t sample = absent ? 255 : one_bit ? (samples[x] ^ flip) * 255 : samples[x];
-        row[x * 4 + static_cast<size_t>(channel)] = static_cast<std::byte>(sample);
+        out[x * 4 + channel] = static_cast<std::byte>(sample);
       }
     }
-  }
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ void av_begin_messages() {
   demuxer_complained = false;
 }
 
-std::string av_reason(int code) {
+std::string av_message(int code) {
   if (!first_error.empty()) return first_error;
   char text[AV_ERROR_MAX_STRING_SIZE] = "";
   av_strerror(code, text, sizeof text);
@@ -112,26 +112,26 @@ std::string av_reason(int code) {
 
 bool av_demuxer_complained() { return demuxer_complained; }
 
-ImageHeader av_header(int width, int height, AVPixelFormat format) {
-  const AVPixFmtDescriptor* descriptor = av_pix_fmt_desc_get(format);
-  const bool alpha = descriptor != nullptr && (descriptor->flags & AV_PIX_FMT_FLAG_ALPHA) != 0;
-  return {.width = static_cast<uint32_t>(width),
-          .height = static_cast<uint32_t>(height),
-          .channels = alpha || format == AV_PIX_FMT_PAL8 ? 4u : 3u,
-          .refusal = refusal(format)};
+Result<ImageHeader> av_header(int width, int height, AVPixelFormat format) {
+  if (const auto checked = check_format(format); !checked) return checked.error();
+  const bool alpha = (av_pix_fmt_desc_get(format)->flags & AV_PIX_FMT_FLAG_ALPHA) != 0;
+  return ImageHeader{static_cast<uint32_t>(width), static_cast<uint32_t>(height),
+                     alpha || format == AV_PIX_FMT_PAL8 ? 4u : 3u};
 }
 
-bool AvPixels::convert(const AVFrame& frame, std::byte* out, std::string& reason) {
+Result<void> AvPixels::convert(const AVFrame& frame, std::byte* out) {
   const auto format = static_cast<AVPixelFormat>(frame.format);
-  reason = refusal(format);
-  if (!reason.empty()) return false;
+  if (const auto checked = check_format(format); !checked) return checked;
   const AVPixFmtDescriptor& descriptor = *av_pix_fmt_desc_get(format);
-  if (is_ycbcr(descriptor)) return convert_ycbcr(frame, out, reason);
-  copy_samples(frame, descriptor, out);
-  return true;
+  if (is_ycbcr(descriptor)) return convert_ycbcr(frame, out);
+  if ((descriptor.flags & AV_PIX_FMT_FLAG_PAL) != 0)
+    copy_palette_pixels(frame, out);
+  else
+    copy_samples(frame, descriptor, out);
+  return {};
 }
 
-bool AvPixels::convert_ycbcr(const AVFrame& frame, std::byte* out, std::string& reason) {
+Result<void> AvPixels::convert_ycbcr(const AVFrame& frame, std::byte* out) {
   const AVColorSpace space = frame.colorspace == AVCOL_SPC_UNSPECIFIED ? AVCOL_SPC_SMPTE170M : frame.colorspace;
   switch (space) {
     case AVCOL_SPC_BT709:
@@ -142,8 +142,8 @@ bool AvPixels::convert_ycbcr(const AVFrame& frame, std::byte* out, std::string& 
     case AVCOL_SPC_BT2020_NCL:
       break;
     default:
-      reason = std::string("has the colour space ") + av_color_space_name(space) + ", which is not converted";
-      return false;
+      return unsupported(std::string("has the colour space ") + av_color_space_name(space) +
+                         ", which is not converted");
   }
   const auto format = static_cast<AVPixelFormat>(frame.format);
   constexpr int kFlags =
@@ -161,15 +161,13 @@ bool AvPixels::convert_ycbcr(const AVFrame& frame, std::byte* out, std::string& 
   }
   if (!scaler_ || !converted_ || av_frame_get_buffer(converted_.get(), 0) < 0 ||
       sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, converted_->data,
-                converted_->linesize) != frame.height) {
-    reason = "cannot be converted to RGB";
-    return false;
-  }
+                converted_->linesize) != frame.height)
+    return Error{ErrorKind::kSystem, "cannot be converted to RGB"};
   const size_t row_bytes = static_cast<size_t>(frame.width) * 4;
   for (int y = 0; y < frame.height; ++y)
     std::memcpy(out + static_cast<size_t>(y) * row_bytes, converted_->data[0] + y * converted_->linesize[0],
                 row_bytes);
-  return true;
+  return {};
 }
 
 }  // namespace tilepress

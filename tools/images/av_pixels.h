@@ -23,25 +23,25 @@ struct AvDelete {
 template <class T>
 using AvOwned = std::unique_ptr<T, AvDelete>;
 
-/// Keeps libav's messages off standard error: its first error of this thread becomes a reason.
+/// Keeps libav's messages off standard error, and forgets the errors of this thread.
 void av_begin_messages();
-/// The first error since av_begin_messages(), else the text of `code`.
-std::string av_reason(int code);
+/// The first error message of this thread since av_begin_messages(), else the text of `code`.
+std::string av_message(int code);
 /// Whether a demultiplexer of this thread reported an error since av_begin_messages().
 bool av_demuxer_complained();
 
-/// What frames of a format are taken as, or why they are not.
-ImageHeader av_header(int width, int height, AVPixelFormat format);
+/// The header of frames that convert() makes of this format. Fails for formats that are not taken.
+Result<ImageHeader> av_header(int width, int height, AVPixelFormat format);
 
 /// Converts frames. RGB, gray and palettes keep their samples. Y'CbCr is converted with the matrix and range
 /// that the frame names, BT.601 if it names none, by swscale's exact arithmetic.
 class AvPixels {
  public:
-  /// `out`: R,G,B,A, tight. False and a reason.
-  bool convert(const AVFrame& frame, std::byte* out, std::string& reason);
+  /// `out`: R,G,B,A, tight.
+  Result<void> convert(const AVFrame& frame, std::byte* out);
 
  private:
-  bool convert_ycbcr(const AVFrame& frame, std::byte* out, std::string& reason);
+  Result<void> convert_ycbcr(const AVFrame& frame, std::byte* out);
   AvOwned<SwsContext> scaler_;
   AvOwned<AVFrame> converted_;
 };

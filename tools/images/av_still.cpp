@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "images/av_pixels.h"
+#include "images/image_errors.h"
 
 namespace tilepress {
 namespace {
@@ -39,14 +40,14 @@ uint32_t little(std::string_view bytes, size_t at) {
   return value;
 }
 
-/// Why a DDS is not one picture; empty if it is.
-std::string dds_refusal(std::string_view bytes) {
+/// Fails if a DDS is not one picture.
+Result<void> check_dds(std::string_view bytes) {
   constexpr uint32_t kCubeMap = 0x200, kVolume = 0x200000;
   const uint32_t kinds = little(bytes, 112);
-  if ((kinds & kCubeMap) != 0) return "is a cube map, not one picture";
-  if ((kinds & kVolume) != 0) return "is a volume";
+  if ((kinds & kCubeMap) != 0) return unsupported("is a cube map, not one picture");
+  if ((kinds & kVolume) != 0) return unsupported("is a volume");
   if (bytes.size() > 148 && bytes.substr(84, 4) == "DX10" && little(bytes, 140) > 1)
-    return "is an array of " + std::to_string(little(bytes, 140)) + " pictures";
+    return unsupported("is an array of " + std::to_string(little(bytes, 140)) + " pictures");
   return {};
 }
 
@@ -66,40 +67,39 @@ bool is_several_pnm(AVCodecID codec_id, const std::string& bytes) {
 
 class AvStill final : public ImageFile {
  public:
-  bool open(const std::string& path, std::string_view kind, std::string& reason) {
+  Result<void> open(const std::string& path, std::string_view kind) {
     std::ifstream file(path, std::ios::binary);
     bytes_.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
-    kind_ = kind;
-    AvOwned<AVFrame> frame = decode(reason);
-    if (!frame) return false;
-    header_ = av_header(frame->width, frame->height, static_cast<AVPixelFormat>(frame->format));
-    if (kind_ == "bmp" && frame->format == AV_PIX_FMT_PAL8) header_.channels = 3;
-    if (kind_ == "pnm" && is_several_pnm(codec_of(kind_, bytes_), bytes_))
-      header_.refusal = "is several images in one file";
-    if (kind_ == "dds") {
-      if (const std::string other = dds_refusal(bytes_); !other.empty()) header_.refusal = other;
+    codec_id_ = codec_of(kind, bytes_);
+    const auto frame = decode();
+    if (!frame) return frame.error();
+    if (kind == "pnm" && is_several_pnm(codec_id_, bytes_)) return unsupported("is several images in one file");
+    if (kind == "dds") {
+      if (const auto checked = check_dds(bytes_); !checked) return checked;
       if (little(bytes_, 28) > 1) left_out_ = "holds smaller copies (mipmaps); only the first level is taken";
     }
-    return true;
+    const auto format = static_cast<AVPixelFormat>((*frame)->format);
+    auto header = av_header((*frame)->width, (*frame)->height, format);
+    if (!header) return header.error();
+    if (kind == "bmp" && format == AV_PIX_FMT_PAL8) header->channels = 3;  // its fourth byte is padding
+    images_ = {*header};
+    return {};
   }
-  bool header(uint32_t image, ImageHeader& out, std::string&) override {
-    if (image == 0) out = header_;
-    return image == 0;
-  }
-  bool read(uint32_t, uint32_t channels, std::byte* out, std::string& reason) override {
-    const AvOwned<AVFrame> frame = decode(reason);
+
+  Result<void> read(uint32_t, std::byte* out) override {
+    const auto frame = decode();
+    if (!frame) return frame.error();
     AvPixels pixels;
-    if (!frame || !pixels.convert(*frame, out, reason)) return false;
-    const size_t count = size_t{header_.width} * header_.height;
-    for (size_t i = 0; i < count && channels == 3; ++i) std::memmove(out + i * 3, out + i * 4, 3);
-    return true;
+    if (const auto converted = pixels.convert(**frame, out); !converted) return converted;
+    const size_t count = size_t{header().width} * header().height;
+    for (size_t i = 0; i < count && header().channels == 3; ++i) std::memmove(out + i * 3, out + i * 4, 3);
+    return {};
   }
-  std::string left_out() const override { return left_out_; }
 
  private:
-  AvOwned<AVFrame> decode(std::string& reason) const {
+  Result<AvOwned<AVFrame>> decode() const {
     av_begin_messages();
-    const AVCodec* decoder = avcodec_find_decoder(codec_of(kind_, bytes_));
+    const AVCodec* decoder = avcodec_find_decoder(codec_id_);
     const AvOwned<AVCodecContext> codec(avcodec_alloc_context3(decoder));
     const AvOwned<AVPacket> packet(av_packet_alloc());
     AvOwned<AVFrame> frame(av_frame_alloc());
@@ -115,23 +115,18 @@ class AvStill final : public ImageFile {
       if (code >= 0) code = avcodec_send_packet(codec.get(), nullptr);
       if (code >= 0) code = avcodec_receive_frame(codec.get(), frame.get());
     }
-    if (code >= 0 && (frame->flags & AV_FRAME_FLAG_CORRUPT) == 0) return frame;
-    reason = "is damaged or cut off: " + av_reason(code);
-    return nullptr;
+    if (code < 0 || (frame->flags & AV_FRAME_FLAG_CORRUPT) != 0) return damaged(av_message(code));
+    return frame;
   }
 
   std::string bytes_;
-  std::string kind_;
-  ImageHeader header_;
-  std::string left_out_;
+  AVCodecID codec_id_ = AV_CODEC_ID_NONE;
 };
 
 }  // namespace
 
-std::unique_ptr<ImageFile> open_av_still(const std::string& path, std::string_view kind, std::string& reason) {
-  auto still = std::make_unique<AvStill>();
-  if (!still->open(path, kind, reason)) return nullptr;
-  return still;
+OpenedImage open_av_still(const std::string& path, std::string_view kind) {
+  return open_with<AvStill>(path, kind);
 }
 
 }  // namespace tilepress

@@ -1,7 +1,6 @@
 // AV still: images that libavcodec decodes with the bits that the file holds.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <string_view>
 
@@ -9,7 +8,7 @@
 
 namespace tilepress {
 
-/// `kind`: "bmp", "tga", "dds", "psd", "pnm", "sgi" or "qoi". Null and a reason if it cannot be decoded.
-std::unique_ptr<ImageFile> open_av_still(const std::string& path, std::string_view kind, std::string& reason);
+/// `kind`: "bmp", "tga", "dds", "psd", "pnm", "sgi" or "qoi".
+OpenedImage open_av_still(const std::string& path, std::string_view kind);
 
 }  // namespace tilepress

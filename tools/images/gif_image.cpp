@@ -6,6 +6,8 @@
 #include <cstring>
 #include <vector>
 
+#include "images/image_errors.h"
+
 namespace tilepress {
 namespace {
 
@@ -18,20 +20,19 @@ struct CloseGif {
 /// A GIF read from its beginning, part by part.
 class GifReader {
  public:
-  bool begin(const std::string& path, std::string& reason) {
+  Result<void> begin(const std::string& path) {
     int error = 0;
     gif_.reset(DGifOpenFileName(path.c_str(), &error));
-    if (!gif_) reason = reason_of(error);
-    return gif_ != nullptr;
+    if (!gif_) return error_of(error);
+    return {};
   }
   uint32_t width() const { return static_cast<uint32_t>(gif_->SWidth); }
   uint32_t height() const { return static_cast<uint32_t>(gif_->SHeight); }
   const GifImageDesc& part() const { return gif_->Image; }
   const GraphicsControlBlock& control() const { return control_; }
-  const ColorMapObject* colors() const { return part().ColorMap ? part().ColorMap : gif_->SColorMap; }
 
-  /// Goes to the next part's pixels. False: the end, or a reason.
-  bool find_part(std::string& reason) {
+  /// Goes to the pixels of the next part. Returns false after the last part.
+  Result<bool> find_part() {
     control_ = {.DisposalMode = DISPOSAL_UNSPECIFIED,
                 .UserInputFlag = false,
                 .DelayTime = 0,
@@ -42,48 +43,41 @@ class GifReader {
       if (type == EXTENSION_RECORD_TYPE && !read_extension()) break;
       if (type != IMAGE_DESC_RECORD_TYPE) continue;
       if (DGifGetImageDesc(gif_.get()) != GIF_OK) break;
-      if (!is_inside())
-        reason = "has a part that lies outside of its screen";
-      else if (colors() == nullptr)
-        reason = "has a part without a palette";
-      return reason.empty();
+      if (!is_inside()) return Error{ErrorKind::kFile, "has a part that lies outside of its screen"};
+      if (colors() == nullptr) return Error{ErrorKind::kFile, "has a part without a palette"};
+      return true;
     }
-    reason = reason_of(gif_->Error);
-    return false;
+    return error_of(gif_->Error);
   }
-  bool skip_pixels(std::string& reason) {
+  Result<void> skip_pixels() {
     int code_size = 0;
     GifByteType* block = nullptr;
     bool good = DGifGetCode(gif_.get(), &code_size, &block) == GIF_OK;
     while (good && block != nullptr) good = DGifGetCodeNext(gif_.get(), &block) == GIF_OK;
-    if (!good) reason = reason_of(gif_->Error);
-    return good;
+    if (!good) return error_of(gif_->Error);
+    return {};
   }
   /// Draws the part onto a canvas of the screen's size.
-  bool draw(std::byte* canvas, std::string& reason) {
+  Result<void> draw(std::byte* canvas) {
     std::vector<GifPixelType> row(static_cast<size_t>(part().Width));
     constexpr int kPasses[4][2] = {{0, 8}, {4, 8}, {2, 4}, {1, 2}};  // of an interlaced part: first row, step
     for (int pass = 0; pass < (part().Interlace ? 4 : 1); ++pass)
       for (int y = part().Interlace ? kPasses[pass][0] : 0; y < part().Height;
            y += part().Interlace ? kPasses[pass][1] : 1) {
-        if (DGifGetLine(gif_.get(), row.data(), part().Width) != GIF_OK) {
-          reason = reason_of(gif_->Error);
-          return false;
-        }
-        if (!draw_row(row, canvas + (size_t(part().Top + y) * width() + size_t(part().Left)) * kPixelBytes)) {
-          reason = "has a colour that its palette lacks";
-          return false;
-        }
+        if (DGifGetLine(gif_.get(), row.data(), part().Width) != GIF_OK) return error_of(gif_->Error);
+        std::byte* to = canvas + (size_t(part().Top + y) * width() + size_t(part().Left)) * kPixelBytes;
+        if (!draw_row(row, to)) return Error{ErrorKind::kFile, "has a colour that its palette lacks"};
       }
-    return true;
+    return {};
   }
 
  private:
-  static std::string reason_of(int error) {
-    if (error == D_GIF_ERR_READ_FAILED || error == D_GIF_ERR_EOF_TOO_SOON) return "is cut off";
-    const char* text = GifErrorString(error);
-    return text != nullptr ? std::string("is damaged: ") + text : "is damaged";
+  static Error error_of(int code) {
+    if (code == D_GIF_ERR_READ_FAILED || code == D_GIF_ERR_EOF_TOO_SOON) return cut_off();
+    const char* text = GifErrorString(code);
+    return {ErrorKind::kFile, text != nullptr ? std::string("is damaged: ") + text : "is damaged"};
   }
+  const ColorMapObject* colors() const { return part().ColorMap ? part().ColorMap : gif_->SColorMap; }
   bool is_inside() const {
     return part().Left >= 0 && part().Top >= 0 && part().Width > 0 && part().Height > 0 &&
            part().Left + part().Width <= gif_->SWidth && part().Top + part().Height <= gif_->SHeight;
@@ -118,61 +112,64 @@ class GifReader {
 
 class GifImage final : public ImageFile {
  public:
-  bool open(const std::string& path, std::string& reason) {
+  Result<void> open(const std::string& path) {
     path_ = path;
     GifReader reader;
-    if (!reader.begin(path, reason)) return false;
-    header_ = {.width = reader.width(), .height = reader.height(), .channels = kPixelBytes};
-    uint64_t count = 0;
-    while (reader.find_part(reason) && reader.skip_pixels(reason)) ++count;
-    if (reason.empty() && count == 0) reason = "has no image";
-    animated_ = count > 1;
-    return reason.empty();
+    if (const auto begun = reader.begin(path); !begun) return begun;
+    images_ = {{reader.width(), reader.height(), kPixelBytes}};
+    for (uint64_t count = 0;; ++count) {
+      const auto part = reader.find_part();
+      if (!part) return part.error();
+      if (!*part && count == 0) return Error{ErrorKind::kFile, "has no image"};
+      if (!*part) return {};
+      if (const auto skipped = reader.skip_pixels(); !skipped) return skipped;
+      sequence_ = count > 0;
+    }
   }
-  bool header(uint32_t image, ImageHeader& out, std::string&) override {
-    if (image == 0) out = header_;
-    return image == 0;
-  }
-  bool is_sequence() const override { return animated_; }
 
-  bool read(uint32_t, uint32_t, std::byte* out, std::string& reason) override {
+  Result<void> read(uint32_t, std::byte* out) override {
     GifReader reader;
     std::memset(out, 0, canvas_bytes());
-    return reader.begin(path_, reason) && is_same(reader) && reader.find_part(reason) &&
-           reader.draw(out, reason);
+    if (const auto begun = begin(reader); !begun) return begun;
+    const auto part = reader.find_part();
+    if (!part) return part.error();
+    if (!*part) return changed_file();
+    return reader.draw(out);
   }
-  bool next(std::byte* out, std::string& reason) override {
+
+  Result<bool> next(std::byte* out) override {
     if (canvas_.empty()) {
-      if (!reader_.begin(path_, reason) || !is_same(reader_)) return false;
+      if (const auto begun = begin(reader_); !begun) return begun.error();
       canvas_.resize(canvas_bytes());
     } else {
       dispose();
     }
-    if (!reader_.find_part(reason)) return false;
+    const auto part = reader_.find_part();
+    if (!part || !*part) return part;
     disposal_ = reader_.control().DisposalMode;
     part_ = reader_.part();
     if (disposal_ == DISPOSE_PREVIOUS) before_ = canvas_;
-    if (!reader_.draw(canvas_.data(), reason)) return false;
+    if (const auto drawn = reader_.draw(canvas_.data()); !drawn) return drawn.error();
     std::memcpy(out, canvas_.data(), canvas_.size());
     return true;
   }
 
  private:
-  size_t canvas_bytes() const { return size_t{header_.width} * header_.height * kPixelBytes; }
-  bool is_same(const GifReader& reader) const {
-    return reader.width() == header_.width && reader.height() == header_.height;
+  size_t canvas_bytes() const { return size_t{header().width} * header().height * kPixelBytes; }
+  Result<void> begin(GifReader& reader) const {
+    const auto begun = reader.begin(path_);
+    if (begun && (reader.width() != header().width || reader.height() != header().height)) return changed_file();
+    return begun;
   }
   void dispose() {
     if (disposal_ == DISPOSE_PREVIOUS) canvas_.swap(before_);
     if (disposal_ != DISPOSE_BACKGROUND) return;
     for (int y = part_.Top; y < part_.Top + part_.Height; ++y)
-      std::memset(&canvas_[(size_t(y) * header_.width + size_t(part_.Left)) * kPixelBytes], 0,
+      std::memset(&canvas_[(size_t(y) * header().width + size_t(part_.Left)) * kPixelBytes], 0,
                   size_t(part_.Width) * kPixelBytes);
   }
 
   std::string path_;
-  ImageHeader header_;
-  bool animated_ = false;
   GifReader reader_;
   std::vector<std::byte> canvas_;  ///< empty before the first frame
   std::vector<std::byte> before_;  ///< the canvas before the part, for DISPOSE_PREVIOUS
@@ -182,10 +179,8 @@ class GifImage final : public ImageFile {
 
 }  // namespace
 
-std::unique_ptr<ImageFile> open_gif(const std::string& path, std::string& reason) {
-  auto gif = std::make_unique<GifImage>();
-  if (!gif->open(path, reason)) return nullptr;
-  return gif;
+OpenedImage open_gif(const std::string& path) {
+  return open_with<GifImage>(path);
 }
 
 }  // namespace tilepress

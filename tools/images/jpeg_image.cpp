@@ -11,11 +11,13 @@
 #include <jpeglib.h>
 #include <jerror.h>
 
+#include "images/image_errors.h"
+
 namespace tilepress {
 namespace {
 
-/// The bytes up to and with the end of the image; 0 if it has none. Thumbnails lie within segments, which have
-/// lengths, and compressed data holds no marker but restarts.
+/// The number of bytes up to the end of the image; 0 if the image has no end. Thumbnails lie within segments,
+/// whose lengths are known. Compressed data holds no marker but restarts.
 size_t bytes_to_end(std::string_view jpeg) {
   constexpr uint8_t kRestart0 = 0xD0, kRestart7 = 0xD7, kEnd = 0xD9, kTemporary = 0x01;
   for (size_t at = 2; (at = jpeg.find('\xFF', at)) != std::string_view::npos && at + 1 < jpeg.size();) {
@@ -31,26 +33,24 @@ size_t bytes_to_end(std::string_view jpeg) {
   return 0;
 }
 
-/// One decoding. libjpeg jumps back to whoever called setjmp: there, and on the way there, nothing may need
-/// to be destroyed.
+/// One decoding. On an error libjpeg jumps to the setjmp call: the functions between may hold nothing that
+/// needs a destructor.
 class Decoder {
  public:
   ~Decoder() { jpeg_destroy_decompress(&jpeg_); }
-  bool begin(std::string_view bytes, std::string& reason) {
-    if (read_header(bytes)) return true;
-    reason = failure_;
-    return false;
+  Result<void> begin(std::string_view bytes) {
+    if (!read_header(bytes)) return library_error(failure_);
+    return {};
   }
-  uint32_t width() const { return jpeg_.image_width; }
-  uint32_t height() const { return jpeg_.image_height; }
-  /// 4 for the inks of printers.
-  uint32_t channels() const { return static_cast<uint32_t>(jpeg_.num_components); }
-  bool read_rows(std::byte* out, std::string& reason) {
-    if (rows_read(reinterpret_cast<JSAMPROW>(out))) return true;
-    reason = failure_;
-    return false;
+  /// 4 channels: the inks of printers.
+  ImageHeader header() const {
+    return {jpeg_.image_width, jpeg_.image_height, static_cast<uint32_t>(jpeg_.num_components)};
   }
-  /// Whether it is one of several pictures of a file (MPO).
+  Result<void> read(std::byte* out) {
+    if (!read_rows(reinterpret_cast<JSAMPROW>(out))) return library_error(failure_);
+    return {};
+  }
+  /// Whether the file is an MPO, which holds several pictures.
   bool has_mpf() const {
     for (const jpeg_marker_struct* each = jpeg_.marker_list; each != nullptr; each = each->next)
       if (each->data_length >= 4 && each->data[0] == 'M' && each->data[1] == 'P' && each->data[2] == 'F' &&
@@ -69,7 +69,7 @@ class Decoder {
     std::snprintf(decoder->failure_, sizeof decoder->failure_, "%s", ended ? "is cut off" : message);
     std::longjmp(decoder->back_, 1);
   }
-  /// Warnings are about pixels that libjpeg makes up. The exceptions lose no pixel.
+  /// libjpeg warns when it makes up pixels. These three warnings lose no pixel.
   static void warn(j_common_ptr jpeg, int level) {
     const int code = jpeg->err->msg_code;
     if (level < 0 && code != JWRN_EXTRANEOUS_DATA && code != JWRN_ADOBE_XFORM && code != JWRN_JFIF_MAJOR)
@@ -89,7 +89,7 @@ class Decoder {
     if (jpeg_.num_components == 3) jpeg_.out_color_space = JCS_RGB;
     return true;
   }
-  bool rows_read(JSAMPROW out) {
+  bool read_rows(JSAMPROW out) {
     if (setjmp(back_)) return false;
     jpeg_start_decompress(&jpeg_);
     const size_t pitch = size_t{jpeg_.output_width} * static_cast<size_t>(jpeg_.output_components);
@@ -109,47 +109,36 @@ class Decoder {
 
 class JpegImage final : public ImageFile {
  public:
-  bool open(const std::string& path, std::string& reason) {
+  Result<void> open(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     bytes_.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
     const size_t end = bytes_to_end(bytes_);
-    if (end == 0) reason = "is cut off";
+    if (end == 0) return cut_off();
     Decoder decoder;
-    if (end == 0 || !decoder.begin(bytes_, reason)) return false;
-    header_ = {.width = decoder.width(), .height = decoder.height(), .channels = decoder.channels()};
-    if (decoder.channels() != 1 && decoder.channels() != 3)
-      header_.refusal = "has " + std::to_string(decoder.channels()) + " colour components, not gray or RGB";
-    if (decoder.has_mpf()) left_out_ = "holds further images; only the first is taken";
+    if (const auto begun = decoder.begin(bytes_); !begun) return begun;
+    images_ = {decoder.header()};
+    if (decoder.has_mpf())
+      left_out_ = "holds further images; only the first is taken";
     else if (std::string_view(bytes_).substr(end).starts_with("\xFF\xD8\xFF"))
-      header_.refusal = "is several JPEGs in one file";
-    return true;
+      return unsupported("is several JPEGs in one file");
+    if (const uint32_t channels = header().channels; channels != 1 && channels != 3)
+      return unsupported("has " + std::to_string(channels) + " colour components, not gray or RGB");
+    return {};
   }
-  bool header(uint32_t image, ImageHeader& out, std::string&) override {
-    if (image == 0) out = header_;
-    return image == 0;
-  }
-  bool read(uint32_t, uint32_t channels, std::byte* out, std::string& reason) override {
+  Result<void> read(uint32_t, std::byte* out) override {
     Decoder decoder;
-    if (!decoder.begin(bytes_, reason)) return false;
-    if (decoder.width() != header_.width || decoder.height() != header_.height ||
-        decoder.channels() != channels)
-      return false;
-    return decoder.read_rows(out, reason);
+    if (const auto begun = decoder.begin(bytes_); !begun) return begun;
+    return decoder.read(out);
   }
-  std::string left_out() const override { return left_out_; }
 
  private:
   std::string bytes_;
-  ImageHeader header_;
-  std::string left_out_;
 };
 
 }  // namespace
 
-std::unique_ptr<ImageFile> open_jpeg(const std::string& path, std::string& reason) {
-  auto jpeg = std::make_unique<JpegImage>();
-  if (!jpeg->open(path, reason)) return nullptr;
-  return jpeg;
+OpenedImage open_jpeg(const std::string& path) {
+  return open_with<JpegImage>(path);
 }
 
 }  // namespace tilepress

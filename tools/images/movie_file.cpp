@@ -12,6 +12,7 @@ extern "C" {
 }
 
 #include "images/av_pixels.h"
+#include "images/image_errors.h"
 
 namespace tilepress {
 namespace {
@@ -26,7 +27,7 @@ struct CloseInput {
   void operator()(AVFormatContext* input) const { avformat_close_input(&input); }
 };
 
-/// Frames of a PNG that is whole; 0 if it is cut off. A picture before the first frame's control is none.
+/// Frames of an animated PNG; 0 if it is cut off. A picture before the first frame control chunk is no frame.
 uint32_t count_apng_frames(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   uint32_t frames = 0;
@@ -42,7 +43,7 @@ uint32_t count_apng_frames(const std::string& path) {
   return 0;
 }
 
-/// Whether a Matroska or WebM file is shorter than its segment says; its demultiplexer does not mind.
+/// Whether a Matroska or WebM file is shorter than its segment says. The demultiplexer does not check this.
 bool is_cut_matroska(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const auto file_bytes = static_cast<uint64_t>(std::max<std::streamoff>(file.tellg(), 0));
@@ -63,44 +64,45 @@ bool is_cut_matroska(const std::string& path) {
 
 class MovieFile final : public ImageFile {
  public:
-  /// `apng_frames`: of an animated PNG, all of which must come, or 0.
-  bool open(const std::string& path, uint32_t apng_frames, std::string& reason) {
+  /// `apng_frames`: the frames that an animated PNG holds; 0 for a movie.
+  Result<void> open(const std::string& path, uint32_t apng_frames) {
     apng_frames_ = apng_frames;
+    sequence_ = true;
     av_begin_messages();
     AVFormatContext* input = avformat_alloc_context();
-    if (input == nullptr) return false;
+    if (input == nullptr) return Error{ErrorKind::kSystem, "not enough memory"};
     input->format_whitelist = av_strdup(kContainers);
     input->protocol_whitelist = av_strdup("file");
-    if (avformat_open_input(&input, ("file:" + path).c_str(), nullptr, nullptr) < 0) return false;
+    if (avformat_open_input(&input, ("file:" + path).c_str(), nullptr, nullptr) < 0)
+      return unsupported("not an image");
     input_.reset(input);
-    if (const int code = avformat_find_stream_info(input, nullptr); code < 0) return fail(code, reason);
+    if (const int code = avformat_find_stream_info(input, nullptr); code < 0) return undecodable(code);
     stream_ = av_find_best_stream(input, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-    if (stream_ < 0 || is_cover(stream_)) {
-      reason = "holds no movie";
-      return false;
-    }
+    if (stream_ < 0 || is_cover(stream_)) return unsupported("holds no movie");
     uint32_t movies = 0;
     for (unsigned i = 0; i < input->nb_streams; ++i)
       movies += input->streams[i]->codecpar->codec_type == AVMEDIA_TYPE_VIDEO && !is_cover(static_cast<int>(i));
     if (movies > 1)
       left_out_ = "holds " + std::to_string(movies) + " video streams; only stream " + std::to_string(stream_) +
                   " is taken";
-    return open_decoder(reason);
+    return open_decoder();
   }
-  bool header(uint32_t image, ImageHeader& out, std::string&) override {
-    if (image == 0) out = header_;
-    return image == 0;
-  }
-  bool read(uint32_t, uint32_t, std::byte*, std::string&) override { return false; }
-  bool is_sequence() const override { return true; }
-  std::string left_out() const override { return left_out_; }
+  Result<void> read(uint32_t, std::byte*) override { return unsupported("is a movie, not an image"); }
 
-  bool next(std::byte* out, std::string& reason) override {
+  Result<bool> next(std::byte* out) override {
     for (;;) {
       const int code = avcodec_receive_frame(codec_.get(), frame_.get());
-      if (code == AVERROR_EOF) return ended(reason);
-      if (code == 0) return take(out, reason);
-      if (code == AVERROR(EAGAIN) ? !feed(reason) : !tolerates(code, reason)) return false;
+      Result<void> done;
+      if (code == AVERROR_EOF) {
+        done = check_end();
+        if (done) return false;
+      } else if (code == 0) {
+        done = take(out);
+        if (done) return true;
+      } else {
+        done = code == AVERROR(EAGAIN) ? feed() : check_decoding(code);
+      }
+      if (!done) return done.error();
     }
   }
 
@@ -108,11 +110,10 @@ class MovieFile final : public ImageFile {
   bool is_cover(int stream) const {
     return (input_->streams[stream]->disposition & (AV_DISPOSITION_ATTACHED_PIC | AV_DISPOSITION_TIMED_THUMBNAILS)) != 0;
   }
-  static bool fail(int code, std::string& reason) {
-    reason = "cannot be decoded: " + av_reason(code);
-    return false;
+  static Error undecodable(int code) {
+    return {ErrorKind::kFile, "cannot be decoded: " + first_line(av_message(code))};
   }
-  bool open_decoder(std::string& reason) {
+  Result<void> open_decoder() {
     const AVStream& stream = *input_->streams[stream_];
     const AVCodec* decoder = avcodec_find_decoder(stream.codecpar->codec_id);
     // Only libvpx decodes the alpha of WebM.
@@ -124,65 +125,66 @@ class MovieFile final : public ImageFile {
     codec_.reset(avcodec_alloc_context3(decoder));
     packet_.reset(av_packet_alloc());
     frame_.reset(av_frame_alloc());
-    if (decoder == nullptr || !codec_ || !packet_ || !frame_) {
-      reason = std::string("cannot be decoded: no decoder of ") + avcodec_get_name(stream.codecpar->codec_id);
-      return false;
-    }
+    if (decoder == nullptr || !codec_ || !packet_ || !frame_)
+      return unsupported(std::string("cannot be decoded: no decoder of ") +
+                         avcodec_get_name(stream.codecpar->codec_id));
     int code = avcodec_parameters_to_context(codec_.get(), stream.codecpar);
     codec_->pkt_timebase = stream.time_base;
     codec_->err_recognition |= AV_EF_EXPLODE;
     codec_->max_pixels = kMostPixels;
     codec_->thread_count = 1;
     if (code >= 0) code = avcodec_open2(codec_.get(), decoder, nullptr);
-    if (code < 0) return fail(code, reason);
+    if (code < 0) return undecodable(code);
     AVPixelFormat format = codec_->pix_fmt;
     if (format == AV_PIX_FMT_NONE) format = static_cast<AVPixelFormat>(stream.codecpar->format);
     if (alpha != nullptr && decoder->wrapper_name != nullptr) format = AV_PIX_FMT_YUVA420P;
-    header_ = av_header(stream.codecpar->width, stream.codecpar->height, format);
-    if (codec_->codec_id == AV_CODEC_ID_APNG) header_.channels = 4;  // parts may leave the canvas transparent
-    return true;
+    const auto header = av_header(stream.codecpar->width, stream.codecpar->height, format);
+    if (!header) return header.error();
+    images_ = {*header};
+    if (codec_->codec_id == AV_CODEC_ID_APNG) images_[0].channels = 4;  // parts may leave the canvas transparent
+    return {};
   }
-  /// Before the first key frame a stream that was cut out of another cannot be decoded.
-  bool tolerates(int code, std::string& reason) {
-    return !key_seen_ || fail(code, reason);
+  /// A stream that was cut out of another one cannot be decoded before its first key frame: no error.
+  Result<void> check_decoding(int code) const {
+    if (code < 0 && key_seen_) return undecodable(code);
+    return {};
   }
-  bool feed(std::string& reason) {
+  /// Gives the decoder the next packet.
+  Result<void> feed() {
     int code = av_read_frame(input_.get(), packet_.get());
     if (code == AVERROR_EOF) {
       avcodec_send_packet(codec_.get(), nullptr);
-      return true;
+      return {};
     }
-    if (code < 0) return fail(code, reason);
+    if (code < 0) return undecodable(code);
     const bool ours = packet_->stream_index == stream_;
-    if (ours && (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0 && key_seen_) {
-      reason = "is damaged or cut off";
-      return false;
-    }
+    if (ours && (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0 && key_seen_) return damaged();
     if (ours) {
       key_seen_ = key_seen_ || (packet_->flags & AV_PKT_FLAG_KEY) != 0;
       code = avcodec_send_packet(codec_.get(), packet_.get());
     }
     av_packet_unref(packet_.get());
-    return code >= 0 || tolerates(code, reason);
+    return check_decoding(code);
   }
-  bool ended(std::string& reason) {
-    if (av_demuxer_complained())
-      reason = "is damaged or cut off: " + av_reason(0);
-    else if (apng_frames_ != 0 && count_ != apng_frames_)
-      reason = "gives " + std::to_string(count_) + " of its " + std::to_string(apng_frames_) + " frames";
-    else if (count_ == 0)
-      reason = "holds no frame that can be decoded";
-    return false;
+  /// Fails if frames are missing.
+  Result<void> check_end() const {
+    if (av_demuxer_complained()) return damaged(av_message(0));
+    if (apng_frames_ != 0 && count_ != apng_frames_)
+      return Error{ErrorKind::kFile, "gives " + std::to_string(count_) + " of its " +
+                                         std::to_string(apng_frames_) + " frames"};
+    if (count_ == 0) return Error{ErrorKind::kFile, "holds no frame that can be decoded"};
+    return {};
   }
-  bool take(std::byte* out, std::string& reason) {
+  Result<void> take(std::byte* out) {
     const std::string name = "frame " + std::to_string(count_++);
-    if (frame_->width != static_cast<int>(header_.width) || frame_->height != static_cast<int>(header_.height))
-      reason = name + " has another size";
-    else if ((frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0 || frame_->decode_error_flags != 0)
-      reason = name + " is damaged";
-    else if (av_header(1, 1, static_cast<AVPixelFormat>(frame_->format)).channels > header_.channels)
-      reason = name + " has alpha, the first one has none";
-    return reason.empty() && pixels_.convert(*frame_, out, reason);
+    if (frame_->width != static_cast<int>(header().width) || frame_->height != static_cast<int>(header().height))
+      return unsupported(name + " has another size");
+    if ((frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0 || frame_->decode_error_flags != 0)
+      return Error{ErrorKind::kFile, name + " is damaged"};
+    const auto format = av_header(1, 1, static_cast<AVPixelFormat>(frame_->format));
+    if (!format) return format.error();
+    if (format->channels > header().channels) return unsupported(name + " has alpha, the first one has none");
+    return pixels_.convert(*frame_, out);
   }
 
   std::unique_ptr<AVFormatContext, CloseInput> input_;
@@ -190,8 +192,6 @@ class MovieFile final : public ImageFile {
   AvOwned<AVPacket> packet_;
   AvOwned<AVFrame> frame_;
   AvPixels pixels_;
-  ImageHeader header_;
-  std::string left_out_;
   int stream_ = -1;
   bool key_seen_ = false;
   uint64_t count_ = 0;
@@ -200,20 +200,15 @@ class MovieFile final : public ImageFile {
 
 }  // namespace
 
-std::unique_ptr<ImageFile> open_movie(const std::string& path, std::string& reason) {
-  auto movie = std::make_unique<MovieFile>();
-  const bool cut = is_cut_matroska(path);
-  if (cut) reason = "is cut off";
-  if (cut || !movie->open(path, 0, reason)) return nullptr;
-  return movie;
+OpenedImage open_movie(const std::string& path) {
+  if (is_cut_matroska(path)) return cut_off();
+  return open_with<MovieFile>(path, 0u);
 }
 
-std::unique_ptr<ImageFile> open_apng(const std::string& path, std::string& reason) {
+OpenedImage open_apng(const std::string& path) {
   const uint32_t frames = count_apng_frames(path);
-  if (frames == 0) reason = "is cut off";
-  auto movie = std::make_unique<MovieFile>();
-  if (frames == 0 || !movie->open(path, frames, reason)) return nullptr;
-  return movie;
+  if (frames == 0) return cut_off();
+  return open_with<MovieFile>(path, frames);
 }
 
 bool is_movie_start(std::string_view start) {

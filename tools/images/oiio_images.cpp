@@ -1,4 +1,4 @@
-// OIIO images: the image library, as a module: each kind of file has its reader, OpenImageIO the rest.
+// OIIO images: the module of the image library. Each kind of file has its reader; OpenImageIO reads the rest.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -6,6 +6,7 @@
 
 #include "images/av_still.h"
 #include "images/gif_image.h"
+#include "images/image_errors.h"
 #include "images/image_kind.h"
 #include "images/image_library.h"
 #include "images/jpeg_image.h"
@@ -15,7 +16,7 @@
 namespace tilepress {
 namespace {
 
-/// Pages of a TIFF; 0 if their chain leads out of the file, which OpenImageIO takes for its end.
+/// Pages of a TIFF; 0 if their chain leads out of the file. OpenImageIO would take that for the last page.
 uint32_t count_tiff_pages(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   unsigned char start[4] = {};
@@ -43,81 +44,87 @@ uint32_t count_tiff_pages(const std::string& path) {
   return 0;
 }
 
+/// Fails if the pixels cannot be taken as they are stored.
+Result<ImageHeader> header_of(const OIIO::ImageSpec& spec) {
+  if (spec.format != OIIO::TypeDesc::UINT8) return deep_channels(spec.format.c_str());
+  if (spec.depth > 1) return unsupported("is a volume");
+  // Of these TIFFs OpenImageIO computes RGB: inks (5) and Lab (8 to 10).
+  const int photometric = spec.get_int_attribute("tiff:PhotometricInterpretation", 2);
+  if (photometric == 5 || (photometric >= 8 && photometric <= 10)) return unsupported("is not gray or RGB");
+  if (spec.nchannels < 1 || spec.nchannels > 4)
+    return unsupported("has " + std::to_string(spec.nchannels) + " channels, not 1 to 4");
+  return ImageHeader{static_cast<uint32_t>(spec.width), static_cast<uint32_t>(spec.height),
+                     static_cast<uint32_t>(spec.nchannels)};
+}
+
 class OiioFile final : public ImageFile {
  public:
-  OiioFile(OIIO::ImageInput::unique_ptr input, uint32_t pages)
-      : input_(std::move(input)), pages_(pages) {}
-
-  bool header(uint32_t image, ImageHeader& out, std::string& reason) override {
-    if (!input_->seek_subimage(static_cast<int>(image), 0)) {
-      input_->geterror();  // a seek past the last image leaves one
-      if (image < pages_) reason = "is damaged or cut off: page " + std::to_string(image) + " cannot be read";
-      return false;
+  Result<void> open(const std::string& path, std::string_view plugin) {
+    const uint32_t pages = plugin == "tiff" ? count_tiff_pages(path) : 1;
+    if (pages == 0) return cut_off();
+    OIIO::ImageSpec wishes, spec;
+    wishes.attribute("oiio:UnassociatedAlpha", 1);
+    input_ = OIIO::ImageInput::create(std::string(plugin));
+    if (!input_) return library_error(OIIO::geterror());
+    if (!input_->open(path, spec, wishes)) return library_error(input_->geterror());
+    for (int page = 0; input_->seek_subimage(page, 0); ++page) {
+      const auto header = header_of(input_->spec(page, 0));
+      if (!header && page == 0) return header.error();
+      if (!header) return about("image " + std::to_string(page), header.error());
+      images_.push_back(*header);
     }
-    const OIIO::ImageSpec spec = input_->spec(static_cast<int>(image), 0);
-    out = {.width = static_cast<uint32_t>(spec.width),
-           .height = static_cast<uint32_t>(spec.height),
-           .channels = static_cast<uint32_t>(spec.nchannels),
-           .refusal = refusal(spec)};
-    return true;
+    input_->geterror();  // a seek past the last image leaves one
+    if (images_.size() < pages)
+      return Error{ErrorKind::kFile,
+                   "is damaged or cut off: page " + std::to_string(images_.size()) + " cannot be read"};
+    return {};
   }
 
-  bool read(uint32_t image, uint32_t channels, std::byte* out, std::string& reason) override {
-    if (input_->read_image(static_cast<int>(image), 0, 0, static_cast<int>(channels), OIIO::TypeDesc::UINT8,
-                           out))
-      return true;
-    reason = input_->geterror();
-    return false;
+  Result<void> read(uint32_t image, std::byte* out) override {
+    const int channels = static_cast<int>(images_[image].channels);
+    if (!input_->read_image(static_cast<int>(image), 0, 0, channels, OIIO::TypeDesc::UINT8, out))
+      return library_error(input_->geterror());
+    return {};
   }
 
  private:
-  static std::string refusal(const OIIO::ImageSpec& spec) {
-    if (spec.format != OIIO::TypeDesc::UINT8) return deep_refusal(spec.format.c_str());
-    if (spec.depth > 1) return "is a volume";
-    // Of these TIFFs OpenImageIO computes RGB: inks (5) and Lab (8 to 10).
-    const int photometric = spec.get_int_attribute("tiff:PhotometricInterpretation", 2);
-    if (photometric == 5 || (photometric >= 8 && photometric <= 10)) return "is not gray or RGB";
-    return {};
-  }
   OIIO::ImageInput::unique_ptr input_;
-  const uint32_t pages_;  ///< at least so many images
 };
 
 class OiioLibrary final : public ImageLibrary {
  public:
-  std::unique_ptr<ImageFile> open(const std::string& path, std::string& reason) const override {
+  OpenedImage open(const std::string& path) const override {
     const ImageKind kind = image_kind_of_file(path.c_str());
     switch (kind.reader) {
       case ImageReader::kJpeg:
-        return open_jpeg(path, reason);
+        return open_jpeg(path);
       case ImageReader::kGif:
-        return open_gif(path, reason);
+        return open_gif(path);
       case ImageReader::kWebp:
-        return open_webp(path, reason);
+        return open_webp(path);
       case ImageReader::kAvStill:
-        return open_av_still(path, kind.name, reason);
+        return open_av_still(path, kind.name);
       case ImageReader::kOiio:
-        return open_oiio(path, kind.name, reason);
-      case ImageReader::kRefused:
-        reason = std::string(kind.name) + " files are not read; convert it to PNG";
-        return nullptr;
-      case ImageReader::kPng:  // an animated one
-        return open_apng(path, reason);
+        return open_with<OiioFile>(path, kind.name);
+      case ImageReader::kPng:  // an animation
+        return open_apng(path);
       case ImageReader::kMovie:
-        return open_movie(path, reason);
+        return open_movie(path);
+      case ImageReader::kRefused:
+        break;
     }
-    return nullptr;
+    return unsupported(std::string(kind.name) + " files are not read; convert it to PNG");
   }
 
   bool may_be_movie(std::string_view start) const override { return is_movie_start(start); }
 
-  bool write_png(const std::string& path, const PngPixels& pixels, std::string& reason) const override {
+  Result<void> write_png(const std::string& path, const PngPixels& pixels) const override {
     const auto output = OIIO::ImageOutput::create("png");
     OIIO::ImageSpec spec = spec_of(pixels);
-    spec.attribute("png:compressionLevel", 4);  // files grow by 4 % at most; the default takes twice as long
-    if (output && output->open(path, spec) && write(*output, pixels)) return true;
-    reason = output ? output->geterror() : OIIO::geterror();
-    return false;
+    spec.attribute("png:compressionLevel", 4);
+    if (!output) return library_error(OIIO::geterror());
+    if (!output->open(path, spec) || !write(*output, pixels)) return library_error(output->geterror());
+    return {};
   }
 
   std::vector<uint8_t> encode_png(const PngPixels& pixels) const override {
@@ -133,20 +140,6 @@ class OiioLibrary final : public ImageLibrary {
   }
 
  private:
-  static std::unique_ptr<ImageFile> open_oiio(const std::string& path, std::string_view plugin,
-                                              std::string& reason) {
-    OIIO::ImageSpec wishes, spec;
-    wishes.attribute("oiio:UnassociatedAlpha", 1);
-    const uint32_t pages = plugin == "tiff" ? count_tiff_pages(path) : 1;
-    if (pages == 0) {
-      reason = "is cut off";
-      return nullptr;
-    }
-    auto input = OIIO::ImageInput::create(std::string(plugin));
-    if (input && input->open(path, spec, wishes)) return std::make_unique<OiioFile>(std::move(input), pages);
-    reason = input ? input->geterror() : OIIO::geterror();
-    return nullptr;
-  }
   static OIIO::TypeDesc type_of(const PngPixels& pixels) {
     return pixels.channel_bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
   }

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <vector>
 
+#include "images/image_errors.h"
+
 namespace tilepress {
 namespace {
 
@@ -21,62 +23,50 @@ struct DeleteDemuxer {
 
 class WebpImage final : public ImageFile {
  public:
-  bool open(const std::string& path, std::string& reason) {
+  Result<void> open(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     bytes_.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
     uint32_t riff_bytes = 0;
     if (bytes_.size() >= 12) std::memcpy(&riff_bytes, &bytes_[4], sizeof riff_bytes);
     WebPBitstreamFeatures features;
     const VP8StatusCode status = WebPGetFeatures(data(), bytes_.size(), &features);
-    if (bytes_.size() < uint64_t{riff_bytes} + 8 || status == VP8_STATUS_NOT_ENOUGH_DATA)
-      reason = "is cut off";
-    else if (status != VP8_STATUS_OK)
-      reason = "is damaged";
-    if (!reason.empty()) return false;
-    header_ = {.width = static_cast<uint32_t>(features.width),
-               .height = static_cast<uint32_t>(features.height),
-               .channels = features.has_alpha || features.has_animation ? 4u : 3u};
-    if (!features.has_animation) return true;
+    if (bytes_.size() < uint64_t{riff_bytes} + 8 || status == VP8_STATUS_NOT_ENOUGH_DATA) return cut_off();
+    if (status != VP8_STATUS_OK) return Error{ErrorKind::kFile, "is damaged"};
+    sequence_ = features.has_animation != 0;
+    images_ = {{static_cast<uint32_t>(features.width), static_cast<uint32_t>(features.height),
+                features.has_alpha || sequence_ ? 4u : 3u}};
+    if (!sequence_) return {};
     const WebPData whole = {data(), bytes_.size()};
     const std::unique_ptr<WebPDemuxer, DeleteDemuxer> demuxer(WebPDemux(&whole));
     if (demuxer) frame_count_ = WebPDemuxGetI(demuxer.get(), WEBP_FF_FRAME_COUNT);
-    if (frame_count_ == 0) reason = "is damaged or cut off";
-    return reason.empty();
+    if (frame_count_ == 0) return damaged();
+    return {};
   }
-  bool header(uint32_t image, ImageHeader& out, std::string&) override {
-    if (image == 0) out = header_;
-    return image == 0;
-  }
-  bool is_sequence() const override { return frame_count_ > 0; }
 
-  bool read(uint32_t, uint32_t channels, std::byte* out, std::string& reason) override {
-    const int pitch = static_cast<int>(header_.width * channels);
-    const size_t size = size_t{header_.width} * channels * header_.height;
+  Result<void> read(uint32_t, std::byte* out) override {
+    const uint32_t channels = header().channels;
+    const int pitch = static_cast<int>(header().width * channels);
+    const size_t size = size_t{header().width} * channels * header().height;
     auto* to = reinterpret_cast<uint8_t*>(out);
-    if (channels == 4 ? WebPDecodeRGBAInto(data(), bytes_.size(), to, size, pitch) != nullptr
-                      : WebPDecodeRGBInto(data(), bytes_.size(), to, size, pitch) != nullptr)
-      return true;
-    reason = "is damaged or cut off";
-    return false;
+    const uint8_t* done = channels == 4 ? WebPDecodeRGBAInto(data(), bytes_.size(), to, size, pitch)
+                                        : WebPDecodeRGBInto(data(), bytes_.size(), to, size, pitch);
+    if (done == nullptr) return damaged();
+    return {};
   }
-  bool next(std::byte* out, std::string& reason) override {
+
+  Result<bool> next(std::byte* out) override {
+    if (read_count_ == frame_count_) return false;
     const WebPData whole = {data(), bytes_.size()};
-    if (!decoder_) {
-      WebPAnimDecoderOptions options;
-      if (WebPAnimDecoderOptionsInit(&options) != 0) {
-        options.color_mode = MODE_RGBA;
-        decoder_.reset(WebPAnimDecoderNew(&whole, &options));
-      }
+    WebPAnimDecoderOptions options;
+    if (!decoder_ && WebPAnimDecoderOptionsInit(&options) != 0) {
+      options.color_mode = MODE_RGBA;
+      decoder_.reset(WebPAnimDecoderNew(&whole, &options));
     }
     uint8_t* canvas = nullptr;
     int time_ms = 0;
-    if (decoder_ && read_count_ == frame_count_) return false;
-    if (!decoder_ || WebPAnimDecoderGetNext(decoder_.get(), &canvas, &time_ms) == 0) {
-      reason = "is damaged or cut off";
-      return false;
-    }
+    if (!decoder_ || WebPAnimDecoderGetNext(decoder_.get(), &canvas, &time_ms) == 0) return damaged();
     ++read_count_;
-    std::memcpy(out, canvas, size_t{header_.width} * header_.height * 4);
+    std::memcpy(out, canvas, size_t{header().width} * header().height * 4);
     return true;
   }
 
@@ -84,18 +74,14 @@ class WebpImage final : public ImageFile {
   const uint8_t* data() const { return reinterpret_cast<const uint8_t*>(bytes_.data()); }
 
   std::vector<char> bytes_;
-  ImageHeader header_;
-  uint32_t frame_count_ = 0;  ///< 0: a still
-  uint32_t read_count_ = 0;
+  uint32_t frame_count_ = 0, read_count_ = 0;  ///< of a sequence
   std::unique_ptr<WebPAnimDecoder, DeleteAnimation> decoder_;
 };
 
 }  // namespace
 
-std::unique_ptr<ImageFile> open_webp(const std::string& path, std::string& reason) {
-  auto webp = std::make_unique<WebpImage>();
-  if (!webp->open(path, reason)) return nullptr;
-  return webp;
+OpenedImage open_webp(const std::string& path) {
+  return open_with<WebpImage>(path);
 }
 
 }  // namespace tilepress

@@ -1,10 +1,21 @@
 // Axis scale: from values to positions along an axis, and the ticks to write on it.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace tilepress {
+
+/// The smallest and the largest of some values.
+struct ValueRange {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
 
 /// A linear axis from 0, or a logarithmic one between powers of two.
 class AxisScale {

@@ -14,9 +14,9 @@ struct CdfPlot {
   LinePlot plot;
 };
 
-/// One plot per surface in <run_path>/cdf.csv, with a line for each of up to six of its frames, spread
-/// evenly. Ranks are taken at 1 … 10 and then in steps of about a tenth; every value is a cell of the file.
-/// Empty without the file, or if it is none.
+/// One plot per surface in <run_path>/cdf.csv, with a line for each of up to six of its frames, spread evenly.
+/// The ranks are 1 … 10, then in steps of about a tenth. Every value is a cell of the file. Returns nothing
+/// without the file, or for a file of another kind.
 std::vector<CdfPlot> load_cdf_plots(const std::string& run_path, const std::string& slug);
 
 }  // namespace tilepress

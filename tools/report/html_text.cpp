@@ -1,11 +1,9 @@
-// HTML text: small pieces of markup that every section of the report page uses.
+// HTML text: small pieces of text that every section of the report page uses.
 #include "html_text.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-
-#include "tilepress/csv_table.h"
 
 namespace tilepress {
 
@@ -68,59 +66,6 @@ std::string shown_number(double value) {
 
 std::string shown_percent(double share) {
   return std::isnan(share) ? "–" : fmt::format("{:.1f} %", share * 100);
-}
-
-Cell text_cell(std::string_view text) {
-  return {escape_html(text), std::string(text)};
-}
-Cell count_cell(uint64_t count) {
-  return {std::to_string(count), std::to_string(count)};
-}
-Cell number_cell(double value) {
-  return {shown_number(value), std::isnan(value) ? "" : csv_number(value)};
-}
-Cell percent_cell(double share) {
-  return {shown_percent(share), std::isnan(share) ? "" : csv_number(share)};
-}
-
-namespace {
-
-constexpr size_t kDenseColumns = 14;  ///< a table with more is set smaller
-/// A column name that may be broken behind its underscores.
-std::string breakable(std::string_view name) {
-  std::string out;
-  for (const char c : name) out += c == '_' ? std::string("_<wbr>") : escape_html({&c, 1});
-  return out;
-}
-
-}  // namespace
-
-std::string table_html(const Table& table) {
-  std::string out = fmt::format("<div class=\"scroll\" tabindex=\"0\"><table class=\"figures{}\" id=\"{}\">",
-                                table.header.size() > kDenseColumns ? " dense" : "", table.id);
-  out += "<caption>" + escape_html(table.caption) + "</caption>\n<thead><tr>";
-  for (size_t i = 0; i < table.header.size(); ++i)
-    out += fmt::format("<th scope=\"col\"{}>{}</th>", i < table.text_columns ? " class=\"text\"" : "",
-                       breakable(table.header[i]));
-  out += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : table.rows) {
-    out += "<tr>";
-    for (size_t i = 0; i < row.size(); ++i) {
-      const char* tag = i == 0 ? "th" : "td";
-      // The column's name goes with the cell for narrow screens, where the header row is not shown.
-      out += fmt::format("<{}{}{} data-h=\"{}\" data-v=\"{}\">{}</{}>", tag, i == 0 ? " scope=\"row\"" : "",
-                         i < table.text_columns ? " class=\"text\"" : "", escape_html(table.header[i]),
-                         escape_html(row[i].exact), row[i].html, tag);
-    }
-    out += "</tr>\n";
-  }
-  return out + "</tbody></table></div>\n";
-}
-
-std::string csv_button(std::string_view table_id, std::string_view file) {
-  return fmt::format(
-      "<button type=\"button\" class=\"save\" data-table=\"{}\" data-file=\"{}\">Download CSV</button>\n",
-      table_id, escape_html(file));
 }
 
 std::string fill_slots(std::string_view pattern,

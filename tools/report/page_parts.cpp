@@ -7,8 +7,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "tilepress/scheme.h"
-
 namespace tilepress {
 namespace {
 
@@ -18,7 +16,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// The paper's order, then all others by name, unnamed last.
+/// The paper's order, then the other categories by name, then runs without a category.
 std::pair<int, std::string> category_order(const std::string& category) {
   const std::string name = lower(category);
   if (name == "ui") return {0, name};
@@ -38,6 +36,15 @@ std::vector<double> Batch::rates(const std::string& category, const std::string&
     if (!std::isnan(rate)) out.push_back(rate);
   }
   return out;
+}
+
+size_t Batch::color_of(const std::string& scheme, size_t otherwise) const {
+  const auto found = std::find(schemes.begin(), schemes.end(), scheme);
+  return found == schemes.end() ? otherwise : static_cast<size_t>(found - schemes.begin());
+}
+
+std::string Batch::group_of(const RunSummary& run) const {
+  return categories.size() > 1 ? category_label(run.category) : "";
 }
 
 void arrange_batch(Batch& batch) {
@@ -63,20 +70,11 @@ void arrange_batch(Batch& batch) {
   for (RunSummary& run : batch.runs)
     for (SurfacePlots& surface : run.surfaces)
       for (LinePlot& plot : surface.plots)
-        for (PlotLine& line : plot.lines) {
-          const auto scheme = std::find(batch.schemes.begin(), batch.schemes.end(), line.name);
-          if (scheme != batch.schemes.end())
-            line.color_index = static_cast<size_t>(scheme - batch.schemes.begin());
-        }
+        for (PlotLine& line : plot.lines) line.color_index = batch.color_of(line.name, line.color_index);
 }
 
 std::string category_label(const std::string& category) {
   return category.empty() ? "no category" : category;
-}
-
-std::string scheme_family(const std::string& scheme) {
-  const SchemeInfo* info = find_scheme(scheme.substr(0, scheme.find(':')));
-  return info != nullptr ? info->family : "";
 }
 
 std::string section_html(const Section& section) {

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "counted.h"
 #include "page_assets.h"
+#include "sections.h"
 
 namespace tilepress {
 namespace {
@@ -36,27 +38,23 @@ std::string lead_text(const Batch& batch) {
     measured += run.measured;
   }
   return fmt::format(
-      "{} run{}, {} frames, {} of them measured, {} scheme{}. Framebuffer compression of captured frames in "
-      "8×8 blocks; rate = raw "
-      "bits / moved bits, higher is better.",
-      batch.runs.size(), batch.runs.size() == 1 ? "" : "s", frames, measured, batch.schemes.size(),
-      batch.schemes.size() == 1 ? "" : "s");
+      "{}, {}, {} of them measured, {}. Framebuffer compression of captured frames in 8×8 blocks. Rate = raw bits "
+      "/ moved bits; higher is better.",
+      counted(batch.runs.size(), "run"), counted(frames, "frame"), measured,
+      counted(batch.schemes.size(), "scheme"));
 }
 
 }  // namespace
 
 std::string report_page(const Batch& batch, const std::string& title) {
   std::string nav, sections;
-  std::vector<Section> all = batch_sections(batch);
-  const std::vector<Section> schemes = scheme_sections(batch);
-  // The means come right after the list of workloads: they are what most readers look for.
-  all.insert(all.begin() + 1, schemes.begin(), schemes.end());
   const auto add_runs = [&] {
     nav += "<a href=\"#runs\">Run by run</a>\n";
     sections += run_parts(batch);
   };
-  // Of a single run its frames matter most; of a batch, how the runs compare.
+  // The frames come first on the page of a single run, the comparison on the page of a batch.
   const bool single = batch.runs.size() == 1;
+  const std::vector<Section> all = page_sections(batch);
   for (const Section& section : all) {
     nav += fmt::format("<a href=\"#{}\">{}</a>\n", section.id, escape_html(section.heading));
     sections += section_html(section);
@@ -64,11 +62,10 @@ std::string report_page(const Batch& batch, const std::string& title) {
   }
   if (!single) add_runs();
   const std::string footer = fmt::format(
-      "<p>Made by tilepress {} from frames.csv, schemes.csv and run.json of the runs named above. A value in "
-      "a table is a cell of those files, a sum of "
-      "such cells, or follows from them by the formula beside it; the CSV downloads have full precision. "
-      "Line charts use uPlot 1.6.32 (MIT "
-      "licence, text in the page's source).</p>",
+      "<p>Made by tilepress {} from frames.csv, schemes.csv and run.json of the runs above. Each value in a table "
+      "is a cell of those files, a sum of such cells, or follows from them by the formula beside it. The CSV "
+      "downloads have full precision. The line charts use uPlot 1.6.32 (MIT licence, text in the page's "
+      "source).</p>",
       TILEPRESS_VERSION);
   return fill_slots(kPageTemplate, {{"version", TILEPRESS_VERSION},
                                     {"title", escape_html(title)},

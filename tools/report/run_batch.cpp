@@ -43,20 +43,17 @@ std::string folder_name(const std::string& path) {
 
 }  // namespace
 
-std::vector<BatchEntry> find_runs(const std::vector<std::string>& paths, std::string& error) {
+Result<std::vector<BatchEntry>> find_runs(const std::vector<std::string>& paths) {
   std::vector<std::string> found;
   for (const std::string& path : paths) {
     std::error_code code;
-    if (!fs::is_directory(path, code)) {
-      error = path + (fs::exists(path, code) ? ": not a run directory" : ": no such folder");
-      return {};
-    }
+    if (!fs::is_directory(path, code))
+      return Error{ErrorKind::kFile,
+                   path + (fs::exists(path, code) ? ": not a run directory" : ": no such folder")};
     const size_t before = found.size();
     collect(path, found);
-    if (found.size() == before) {
-      error = path + ": holds no run (no frames.csv in it or below)";
-      return {};
-    }
+    if (found.size() == before)
+      return Error{ErrorKind::kFile, path + ": holds no run (no frames.csv in it or below)"};
   }
   std::map<std::string, size_t> plain_count, folder_count;
   for (const std::string& path : found) {

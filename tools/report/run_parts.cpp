@@ -1,6 +1,7 @@
 // Run parts: facts, totals and line charts of each run.
 #include <fmt/format.h>
 
+#include "counted.h"
 #include "page_parts.h"
 
 namespace tilepress {
@@ -9,7 +10,8 @@ namespace {
 Table totals_table(const RunSummary& run, size_t index) {
   Table table;
   table.id = fmt::format("table-run-{}", index);
-  table.caption = fmt::format("Sums over {} measured frames; the warm-up frames are left out", run.measured);
+  table.caption =
+      fmt::format("Sums over {}, without warm-up frames", counted(run.measured, "measured frame"));
   table.header = {"scheme",   "blocks",       "raw_bits",     "payload_bits", "bursts",
                   "csb_bits", "palette_bits", "rate_payload", "rate"};
   for (size_t i = 0; i < run.schemes.size(); ++i) {
@@ -30,7 +32,7 @@ std::string pictures_html(const RunSummary& run) {
       "aria-label=\"colour scale from dark, 0 bits, to yellow, not compressed\"><rect width=\"100%\" "
       "height=\"100%\" fill=\"url(#heat-scale)\"/></svg> 0 bits "
       "to not compressed. "
-      "Pictures are shrunk; the run's folders frames and heatmaps have them in full.</p>\n<div "
+      "The page shrinks the pictures. The run's folders frames and heatmaps have them in full size.</p>\n<div "
       "class=\"pictures\">\n";
   for (const RunPicture& picture : run.pictures) {
     out += fmt::format("<figure><figcaption>frame {}, surface {}</figcaption><div class=\"row\">",
@@ -62,8 +64,8 @@ std::string run_parts(const Batch& batch) {
     out += "</select></label>\n";
   }
   out +=
-      "<noscript><p class=\"warn\">The line charts need JavaScript; everything else on this page does "
-      "not.</p></noscript>\n";
+      "<noscript><p class=\"warn\">The line charts need JavaScript. All other parts of this page work without "
+      "it.</p></noscript>\n";
   for (size_t i = 0; i < batch.runs.size(); ++i) {
     const RunSummary& run = batch.runs[i];
     out += fmt::format("<section class=\"run\" id=\"run-{}\">\n<h3>{}</h3>\n<dl class=\"facts\">\n", i,
@@ -75,7 +77,7 @@ std::string run_parts(const Batch& batch) {
     out += table_html(table) + "<div class=\"tools\">" +
            csv_button(table.id, file_slug(run.name) + "-totals.csv") + "</div>\n";
     if (run.measured == 0)
-      out += "<p class=\"warn\">No frame of this run was measured: there is nothing to draw.</p>\n";
+      out += "<p class=\"warn\">This run has no measured frame and no chart.</p>\n";
     out += "<div class=\"line-charts\"></div>\n" + pictures_html(run) + "</section>\n";
   }
   return out + "</section>\n";

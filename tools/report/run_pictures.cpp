@@ -35,41 +35,45 @@ std::string base64(const std::vector<uint8_t>& bytes) {
 
 /// A data URI of an RGB picture; empty on failure.
 std::string png_uri(const std::vector<uint8_t>& pixels, uint32_t width, uint32_t height) {
-  std::string error;
-  const ImageLibrary* library = image_library(error);
-  if (library == nullptr) return "";
+  const auto library = image_library();
+  if (!library) return "";
   const std::vector<uint8_t> bytes =
-      library->encode_png({.width = width, .height = height, .channels = 3, .samples = pixels.data()});
+      (*library)->encode_png({.width = width, .height = height, .channels = 3, .samples = pixels.data()});
   return bytes.empty() ? "" : "data:image/png;base64," + base64(bytes);
 }
 
-std::string thumbnail_of(const std::string& path, RunPicture& picture) {
-  std::string error;
-  const auto file = open_png(path, error);
-  ImageHeader header;
-  if (file == nullptr || !file->header(0, header, error) || header.channels < 3) return "";
-  const uint32_t width = header.width, height = header.height;
-  const size_t channels = header.channels;
-  std::vector<uint8_t> pixels(size_t{width} * height * channels);
-  if (!file->read(0, header.channels, reinterpret_cast<std::byte*>(pixels.data()), error)) return "";
+/// Shrinks an image to RGB. Each pixel is the mean of the pixels that it covers, without alpha.
+std::vector<uint8_t> shrunk(const std::vector<uint8_t>& pixels, const ImageHeader& from, uint32_t to_width,
+                            uint32_t to_height) {
   std::vector<uint8_t> small;
-  for (uint32_t y = 0; y < picture.height; ++y)
-    for (uint32_t x = 0; x < picture.width; ++x) {
-      // Mean over the source pixels that this one covers; alpha is left out, as on a screen.
-      const uint32_t x0 = x * width / picture.width, x1 = std::max(x0 + 1, (x + 1) * width / picture.width);
-      const uint32_t y0 = y * height / picture.height,
-                     y1 = std::max(y0 + 1, (y + 1) * height / picture.height);
+  small.reserve(size_t{to_width} * to_height * 3);
+  for (uint32_t y = 0; y < to_height; ++y)
+    for (uint32_t x = 0; x < to_width; ++x) {
+      const uint32_t x0 = x * from.width / to_width, x1 = std::max(x0 + 1, (x + 1) * from.width / to_width);
+      const uint32_t y0 = y * from.height / to_height, y1 = std::max(y0 + 1, (y + 1) * from.height / to_height);
       uint64_t sum[3] = {};
       for (uint32_t sy = y0; sy < y1; ++sy)
         for (uint32_t sx = x0; sx < x1; ++sx)
-          for (size_t c = 0; c < 3; ++c) sum[c] += pixels[(size_t{sy} * width + sx) * channels + c];
+          for (size_t c = 0; c < 3; ++c)
+            sum[c] += pixels[(size_t{sy} * from.width + sx) * from.channels + c];
       const uint64_t count = uint64_t{x1 - x0} * (y1 - y0);
-      for (size_t c = 0; c < 3; ++c) small.push_back(static_cast<uint8_t>((sum[c] + count / 2) / count));
+      for (const uint64_t channel : sum) small.push_back(static_cast<uint8_t>((channel + count / 2) / count));
     }
-  return png_uri(small, picture.width, picture.height);
+  return small;
 }
 
-/// Reads one heat map as FramePictures writes it. False if the file is none.
+/// A data URI of the PNG at `path`, as large as `picture`; empty on failure.
+std::string thumbnail_of(const std::string& path, const RunPicture& picture) {
+  const OpenedImage opened = open_png(path);
+  if (!opened || *opened == nullptr) return "";
+  const ImageHeader header = (*opened)->images().front();
+  if (header.channels < 3) return "";
+  std::vector<uint8_t> pixels(size_t{header.width} * header.height * header.channels);
+  if (!(*opened)->read(0, reinterpret_cast<std::byte*>(pixels.data()))) return "";
+  return png_uri(shrunk(pixels, header, picture.width, picture.height), picture.width, picture.height);
+}
+
+/// Reads a heat map that FramePictures wrote. Returns false for other files.
 bool read_heat_map(const std::string& path, HeatMap& out) {
   std::ifstream file(path, std::ios::binary);
   std::string magic, comment;

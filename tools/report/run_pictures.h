@@ -19,13 +19,13 @@ struct HeatMap {
 struct RunPicture {
   uint64_t frame = 0;
   uint32_t surface = 0;
-  uint32_t width = 0, height = 0;  ///< at which the pictures are shown, pixels
+  uint32_t width = 0, height = 0;  ///< of the pictures on the page, pixels
   std::string thumbnail;           ///< data URI; empty if the frame's pixels were not kept
   std::vector<HeatMap> heat_maps;  ///< in the order of the run's schemes
 };
 
-/// Up to `max_count` of the frames that have pictures, spread evenly over the run. Files that are no
-/// pictures, or of frames without rows, are passed over.
+/// Up to `max_count` of the frames that have pictures, spread evenly over the run. Skips files that are no
+/// pictures, and frames without rows.
 std::vector<RunPicture> load_pictures(const RunRecord& run, size_t max_count);
 
 /// The colours of heat maps as SVG gradient stops, from 0 to raw.

@@ -18,12 +18,12 @@ struct ExportOptions {
   bool per_frame = false;
 };
 
-bool export_run(const BatchEntry& entry, const ExportOptions& options, OutputFile& out, std::string& error) {
-  if (options.format == "jsonl") return write_row_lines(entry.path, entry.name, out, error);
+Result<void> export_run(const BatchEntry& entry, const ExportOptions& options, OutputFile& out) {
+  if (options.format == "jsonl") return write_row_lines(entry.path, entry.name, out);
   const auto run = read_run(entry.path);
-  if (!run) return error = run.error().text, false;
+  if (!run) return run.error();
   out.write(gem5_stats(*run, gem5_name(entry.name), options.per_frame));
-  return true;
+  return {};
 }
 
 }  // namespace
@@ -31,26 +31,25 @@ bool export_run(const BatchEntry& entry, const ExportOptions& options, OutputFil
 int verb_export(int argc, char** argv) {
   ExportOptions options;
   CLI::App app{"Writes runs as gem5's stats.txt or as JSON lines."};
-  app.add_option("RUN", options.runs, "Run directories, or folders that hold some")->required();
-  app.add_option("--format", options.format, "gem5 (name value # description) or jsonl (an object per row)")
+  app.add_option("RUN", options.runs, "Run directories, or folders of run directories")->required();
+  app.add_option("--format", options.format, "gem5 (name value # description) or jsonl (one object per row)")
       ->type_name("gem5|jsonl")
       ->required()
       ->check([](const std::string& name) {
         return name == "gem5" || name == "jsonl" ? "" : "must be gem5 or jsonl, not '" + name + "'";
       });
-  app.add_option("-o,--output", options.output, "The file; - is standard output (default)")
+  app.add_option("-o,--output", options.output, "File to write; - for standard output (default: -)")
       ->type_name("FILE");
-  app.add_flag("--per-frame", options.per_frame, "gem5: one dump for each frame, not one for the run");
+  app.add_flag("--per-frame", options.per_frame, "gem5: one dump per frame, not one per run");
   if (const auto stop = parse_command_line(app, argc, argv)) return *stop;
 
-  std::string error;
-  const std::vector<BatchEntry> entries = find_runs(options.runs, error);
-  if (entries.empty()) return fail(kExitFailed, error);
+  const auto entries = find_runs(options.runs);
+  if (!entries) return fail(kExitFailed, entries.error());
   OutputFile out;
-  if (!out.open(options.output, true, error)) return fail(kExitFailed, error);
-  for (const BatchEntry& entry : entries)
-    if (!export_run(entry, options, out, error)) return fail(kExitFailed, error);
-  return out.commit(error) ? kExitDone : fail(kExitFailed, error);
+  auto done = out.open(options.output, true);
+  for (size_t i = 0; done && i < entries->size(); ++i) done = export_run((*entries)[i], options, out);
+  if (done) done = out.commit();
+  return done ? kExitDone : fail(kExitFailed, done.error());
 }
 
 }  // namespace tilepress

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "counted.h"
 #include "report/report_page.h"
 #include "report/run_batch.h"
 #include "streams/output_file.h"
@@ -16,9 +17,9 @@
 namespace tilepress {
 namespace {
 
-/// Values in all line charts of a page together; keeps a page of any batch below 10 MB.
+/// Values in all line charts of a page together. The budget keeps every page below 10 MB.
 constexpr size_t kPointBudget = 600000;
-/// Frames with pictures on a page together, and of one run.
+/// Frames with pictures: on a page, and per run.
 constexpr size_t kPictureBudget = 32, kPicturesPerRun = 8;
 
 struct ReportOptions {
@@ -26,7 +27,7 @@ struct ReportOptions {
   std::string output = "report.html";
   std::string title;
   std::vector<std::string> categories;  ///< PATTERN=CATEGORY
-  EnergyModel energy;
+  CostConstants energy;
 };
 
 /// The category of the first rule whose pattern matches the workload's name.
@@ -40,17 +41,17 @@ void apply_categories(const std::vector<std::string>& rules, RunSummary& run) {
   }
 }
 
-/// Loads and adds up every run, on all processors. Nothing is kept of a run but its summary.
-bool summarise_all(const std::vector<BatchEntry>& entries, std::vector<RunSummary>& out, std::string& error) {
-  out.resize(entries.size());
-  std::vector<std::string> errors(entries.size());
+/// Loads and adds up every run, on all processors.
+Result<std::vector<RunSummary>> summarise_all(const std::vector<BatchEntry>& entries) {
+  std::vector<RunSummary> out(entries.size());
+  std::vector<Result<void>> read(entries.size());
   std::atomic<size_t> next{0};
   const size_t pictures_per_run = std::clamp<size_t>(kPictureBudget / entries.size(), 1, kPicturesPerRun);
   const auto work = [&] {
     for (size_t i = next++; i < entries.size(); i = next++) {
       const auto run = read_run(entries[i].path);
       if (!run) {
-        errors[i] = run.error().text;
+        read[i] = run.error();
         continue;
       }
       out[i] = summarise_run(*run, entries[i].name, kPointBudget / entries.size());
@@ -61,25 +62,22 @@ bool summarise_all(const std::vector<BatchEntry>& entries, std::vector<RunSummar
       std::min<size_t>(std::max(1u, std::thread::hardware_concurrency()), entries.size()));
   for (std::thread& thread : threads) thread = std::thread(work);
   for (std::thread& thread : threads) thread.join();
-  for (const std::string& one : errors) {
-    if (one.empty()) continue;
-    error = one;
-    return false;
-  }
-  return true;
+  for (const Result<void>& one : read)
+    if (!one) return one.error();
+  return out;
 }
 
 }  // namespace
 
 int verb_report(int argc, char** argv) {
   ReportOptions options;
-  CLI::App app{"Makes one HTML page about runs: rates, means, coverage, energy. It opens without a network."};
-  app.add_option("RUN", options.runs, "Run directories, or folders that hold some")->required();
-  app.add_option("-o,--output", options.output, "The page; - is standard output (default: report.html)")
+  CLI::App app{"Writes one HTML page about runs: rates, means, coverage, energy. The page needs no network."};
+  app.add_option("RUN", options.runs, "Run directories, or folders of run directories")->required();
+  app.add_option("-o,--output", options.output, "HTML file to write; - for standard output (default: report.html)")
       ->type_name("FILE");
   app.add_option("--title", options.title, "Heading of the page")->type_name("TEXT");
   app.add_option("--category", options.categories,
-                 "Category of the workloads whose name matches, as 'glmark2*=3D'; repeatable")
+                 "Category of the workloads whose names match, as 'glmark2*=3D'; repeatable")
       ->type_name("PATTERN=NAME")
       ->allow_extra_args(false)
       ->check([](const std::string& rule) {
@@ -89,27 +87,27 @@ int verb_report(int argc, char** argv) {
                  "Energy per byte moved in DRAM, pJ (default: 451.2)")
       ->type_name("PJ")
       ->check(CLI::PositiveNumber);
-  app.add_option("--dcp-pj", options.energy.dcp_pj_per_byte,
+  app.add_option("--dcp-pj", options.energy.structures_pj_per_byte,
                  "Energy of DCP's structures per raw byte, pJ (default: 4.83)")
       ->type_name("PJ")
       ->check(CLI::NonNegativeNumber);
   if (const auto stop = parse_command_line(app, argc, argv)) return *stop;
 
-  std::string error;
-  const std::vector<BatchEntry> entries = find_runs(options.runs, error);
-  if (entries.empty()) return fail(kExitFailed, error);
+  const auto entries = find_runs(options.runs);
+  if (!entries) return fail(kExitFailed, entries.error());
+  auto runs = summarise_all(*entries);
+  if (!runs) return fail(kExitFailed, runs.error());
   Batch batch;
   batch.energy = options.energy;
-  if (!summarise_all(entries, batch.runs, error)) return fail(kExitFailed, error);
+  batch.runs = std::move(*runs);
   for (RunSummary& run : batch.runs) apply_categories(options.categories, run);
   arrange_batch(batch);
   std::string title = options.title;
   if (title.empty())
-    title = entries.size() == 1 ? "Compression report: " + entries[0].name
-                                : "Compression report: " + std::to_string(entries.size()) + " runs";
-  if (!write_whole_file(options.output, report_page(batch, title), true, error))
-    return fail(kExitFailed, error);
-  return kExitDone;
+    title = "Compression report: " +
+            (entries->size() == 1 ? entries->front().name : counted(entries->size(), "run"));
+  const auto written = write_whole_file(options.output, report_page(batch, title), true);
+  return written ? kExitDone : fail(kExitFailed, written.error());
 }
 
 }  // namespace tilepress

@@ -29,7 +29,7 @@ struct Slot {
 };
 Slot slots[8];
 
-/// What a signal prints, made before it comes.
+/// What a signal prints. The handler itself must not format text.
 struct LastLine {
   int signal;
   char text[80];
@@ -61,7 +61,7 @@ void note(int signal) {
   if (noted == 0) {
     noted_at_ns = now_ns();
     noted = signal;
-    // A system call that is entered after the verb has looked, and before the signal, would block for good.
+    // The verb may enter a blocking call just after it has looked at `noted`: wake it up again and again.
     constexpr itimerval kAgainAndAgain = {{0, 50'000}, {0, 50'000}};
     setitimer(ITIMER_REAL, &kAgainAndAgain, nullptr);
   } else if (now_ns() - noted_at_ns > kSameRequestNs) {
@@ -78,7 +78,7 @@ void choose_on_signal(OnSignal choice) {
   struct sigaction action {};
   sigemptyset(&action.sa_mask);
   for (const LastLine& last : last_lines) sigaddset(&action.sa_mask, last.signal);
-  // Without SA_RESTART: whoever waits for input is to look again.
+  // Without SA_RESTART, so that a verb that waits for input looks at `noted`.
   action.sa_handler = [](int) {};
   if (choice == OnSignal::kEndInOrder) sigaction(SIGALRM, &action, nullptr);
   action.sa_handler = choice == OnSignal::kEndInOrder ? note : end_at_once;

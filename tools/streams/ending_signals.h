@@ -8,7 +8,7 @@
 
 namespace tilepress {
 
-/// How a verb ends on a signal. A signal that the caller ignores stays ignored.
+/// How a verb ends on a signal. A signal that the parent process ignores stays ignored.
 enum class OnSignal : uint8_t {
   kVerbsOwn,    ///< the verb decides
   kEndAtOnce,   ///< unfinished files are removed, one line, exit 128+n
@@ -16,8 +16,8 @@ enum class OnSignal : uint8_t {
 };
 void choose_on_signal(OnSignal choice);
 
-/// Number of the signal that asked a verb with kEndInOrder to end; 0 before. Blocking system calls return
-/// EINTR on that signal, and again and again after it.
+/// Number of the signal that asked a verb with kEndInOrder to end; 0 before. From that signal on, blocking
+/// system calls return EINTR every 50 ms.
 const std::atomic<int>& noted_signal();
 
 /// "killed by signal 2", as run.json writes it.
@@ -25,7 +25,7 @@ std::string state_after(int signal);
 /// "killed by signal 2 (Interrupt)"
 std::string signal_text(int signal);
 
-/// A file that a signal with kEndAtOnce removes, as long as this lives.
+/// While this object lives, a signal with kEndAtOnce removes the file.
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(const std::string& path);

@@ -1,4 +1,4 @@
-// Output file: written beside, renamed at the end.
+// Output file: written beside its final name, renamed at the end.
 #include "streams/output_file.h"
 
 #include <fcntl.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t kBufferBytes = 1 << 16;
 
-/// `path` with its symbolic links followed: the link stays, the file that it leads to is replaced.
+/// `path` with its symbolic links followed: a link stays, and the file behind the link is replaced.
 std::string real_path(const std::string& path) {
   char* resolved = realpath(path.c_str(), nullptr);
   std::string out = resolved != nullptr ? resolved : path;
@@ -25,9 +25,13 @@ std::string real_path(const std::string& path) {
   return out;
 }
 
-/// False for devices and FIFOs, and for /dev/stdout and its kin, which lead to an open file.
+/// False for devices and FIFOs, and for /dev/stdout and the like, which lead to an open file.
 bool can_be_replaced(const std::string& path, const struct stat& status) {
   return S_ISREG(status.st_mode) && !path.starts_with("/dev/") && !path.starts_with("/proc/");
+}
+
+Error system_error(const std::string& path, int code) {
+  return {ErrorKind::kFile, path + ": " + std::strerror(code)};
 }
 
 }  // namespace
@@ -36,56 +40,47 @@ PendingFile::~PendingFile() {
   if (unfinished_) unlink(work_path_.c_str());
 }
 
-bool PendingFile::begin(const std::string& path, bool replace, std::string& error) {
+Result<void> PendingFile::begin(const std::string& path, bool replace) {
   struct stat status {};
   const bool exists = stat(path.c_str(), &status) == 0;
   work_path_ = final_path_ = path;
-  if (exists && S_ISDIR(status.st_mode)) {
-    error = path + ": " + std::strerror(EISDIR);
-    return false;
-  }
-  if (exists && !can_be_replaced(path, status)) return true;
-  if (exists && !replace) {
-    error = path + ": exists (--force replaces it)";
-    return false;
-  }
+  if (exists && S_ISDIR(status.st_mode)) return system_error(path, EISDIR);
+  if (exists && !can_be_replaced(path, status)) return {};
+  if (exists && !replace) return Error{ErrorKind::kExists, path + ": exists (--force replaces it)"};
   if (exists) final_path_ = real_path(path);
   work_path_ = final_path_ + ".part";
   unfinished_.emplace(work_path_);
   const int fd = ::open(work_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (fd < 0) {
-    error = path + ": " + std::strerror(errno);
+    const int code = errno;
     unfinished_.reset();
-    return false;
+    return system_error(path, code);
   }
   if (exists && fchmod(fd, status.st_mode & 07777) != 0) { /* the new file has the modes of any new file */
   }
   close(fd);
-  return true;
+  return {};
 }
 
-bool PendingFile::commit(std::string& error) {
-  if (!unfinished_) return true;
-  if (rename(work_path_.c_str(), final_path_.c_str()) != 0) {
-    error = final_path_ + ": " + std::strerror(errno);
-    return false;
-  }
+Result<void> PendingFile::commit() {
+  if (!unfinished_) return {};
+  if (rename(work_path_.c_str(), final_path_.c_str()) != 0) return system_error(final_path_, errno);
   unfinished_.reset();
-  return true;
+  return {};
 }
 
 OutputFile::~OutputFile() {
   if (fd_ >= 0) close(fd_);
 }
 
-bool OutputFile::open(const std::string& path, bool replace, std::string& error) {
+Result<void> OutputFile::open(const std::string& path, bool replace) {
   path_ = path;
   to_stdout_ = path == "-";
-  if (to_stdout_) return true;
-  if (!pending_.begin(path, replace, error)) return false;
+  if (to_stdout_) return {};
+  if (const auto begun = pending_.begin(path, replace); !begun) return begun;
   fd_ = ::open(pending_.path().c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (fd_ < 0) error = path + ": " + std::strerror(errno);
-  return fd_ >= 0;
+  if (fd_ < 0) return system_error(path, errno);
+  return {};
 }
 
 void OutputFile::write(std::string_view text) {
@@ -107,21 +102,20 @@ void OutputFile::flush() {
   buffer_.clear();
 }
 
-bool OutputFile::commit(std::string& error) {
-  if (to_stdout_) return flush_standard_output(error);
+Result<void> OutputFile::commit() {
+  if (to_stdout_) return flush_standard_output();
   flush();
   if (close(fd_) != 0 && first_error_ == 0) first_error_ = errno;
   fd_ = -1;
-  if (first_error_ == 0) return pending_.commit(error);
-  error = path_ + ": " + std::strerror(first_error_);
-  return false;
+  if (first_error_ != 0) return system_error(path_, first_error_);
+  return pending_.commit();
 }
 
-bool write_whole_file(const std::string& path, std::string_view text, bool replace, std::string& error) {
+Result<void> write_whole_file(const std::string& path, std::string_view text, bool replace) {
   OutputFile file;
-  if (!file.open(path, replace, error)) return false;
+  if (const auto opened = file.open(path, replace); !opened) return opened;
   file.write(text);
-  return file.commit(error);
+  return file.commit();
 }
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Output file: what a verb writes to the FILE of -o, whole or not at all.
+// Output file: what a verb writes to the FILE of -o, whole or not at all. Error texts begin with the file.
 #pragma once
 
 #include <memory>
@@ -7,22 +7,22 @@
 #include <string_view>
 
 #include "streams/ending_signals.h"
+#include "tilepress/result.h"
 
 namespace tilepress {
 
-/// Where to write a file that gets its name once it is whole. A device or FIFO is written directly.
+/// A file that gets its name once it is whole. A device or FIFO is written directly.
 class PendingFile {
  public:
   PendingFile() = default;
   PendingFile(const PendingFile&) = delete;
   PendingFile& operator=(const PendingFile&) = delete;
   ~PendingFile();  ///< removes the file, unless commit() was called
-  /// Makes an empty file beside `path`. An existing file is replaced only with `replace`. Returns false and
-  /// one line in `error` on failure.
-  bool begin(const std::string& path, bool replace, std::string& error);
+  /// Makes an empty file beside `path`. Fails with kExists if the file exists and `replace` is false.
+  Result<void> begin(const std::string& path, bool replace);
   const std::string& path() const { return work_path_; }  ///< write here
-  /// Call when everything is written and closed. Returns false and one line in `error` on failure.
-  bool commit(std::string& error);
+  /// Call when everything is written and closed.
+  Result<void> commit();
 
  private:
   std::string final_path_, work_path_;
@@ -34,12 +34,12 @@ class OutputFile {
  public:
   OutputFile() = default;
   ~OutputFile();
-  bool open(const std::string& path, bool replace, std::string& error);
+  Result<void> open(const std::string& path, bool replace);
   bool is_open() const { return fd_ >= 0 || to_stdout_; }
-  /// An error is kept until commit().
+  /// commit() returns the first error.
   void write(std::string_view text);
-  /// Returns false and one line in `error` ("FILE: reason") if not everything was written.
-  bool commit(std::string& error);
+  /// Fails if not everything was written.
+  Result<void> commit();
 
  private:
   void flush();
@@ -51,6 +51,6 @@ class OutputFile {
 };
 
 /// Writes all of `text` to `path` as OutputFile does.
-bool write_whole_file(const std::string& path, std::string_view text, bool replace, std::string& error);
+Result<void> write_whole_file(const std::string& path, std::string_view text, bool replace);
 
 }  // namespace tilepress

@@ -12,7 +12,7 @@ namespace {
 
 std::mutex guard;
 int holders = 0;
-std::atomic<int> kept = -1;  ///< a second descriptor of the true standard error, made once
+std::atomic<int> kept = -1;  ///< a copy of the true standard error, made once
 
 }  // namespace
 

@@ -1,9 +1,9 @@
-// Quiet standard error: keeps image libraries from printing there what they also report.
+// Quiet standard error: keeps image libraries from printing the errors that they also return.
 #pragma once
 
 namespace tilepress {
 
-/// Takes standard error away while any of these lives, in any thread.
+/// Standard error leads nowhere while any of these objects lives, in any thread.
 class QuietStandardError {
  public:
   QuietStandardError();
@@ -12,7 +12,7 @@ class QuietStandardError {
   QuietStandardError& operator=(const QuietStandardError&) = delete;
 };
 
-/// The descriptor that leads to the true standard error, quiet or not. Async-signal-safe.
+/// The descriptor of the true standard error, whether it is quiet or not. Async-signal-safe.
 int true_standard_error();
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Standard streams: stdio's standard output over a write function of our own, which keeps the first error.
+// Standard streams: stdout writes through a function that keeps the first error.
 #include "streams/standard_streams.h"
 
 #include <fcntl.h>
@@ -14,10 +14,10 @@ namespace tilepress {
 namespace {
 
 int first_error = 0;  ///< errno of the first write that failed
-bool told = false;
+bool failed = false;
 struct sigaction callers_sigpipe;
 
-/// stdio forgets why a write failed before the last one. Returns fewer than `count` bytes on failure.
+/// stdio keeps only the error of the last write. Returns fewer than `count` bytes on failure.
 ssize_t write_noting_errors(void*, const char* bytes, size_t count) {
   size_t done = 0;
   while (done < count && first_error == 0) {
@@ -34,7 +34,7 @@ ssize_t write_noting_errors(void*, const char* bytes, size_t count) {
   return static_cast<ssize_t>(done);
 }
 
-/// Opens a closed standard stream in the direction that nobody uses: reads and writes fail as before.
+/// Opens a closed standard stream in its unused direction: reads and writes fail as before.
 void occupy(int stream) {
   if (fcntl(stream, F_GETFD) >= 0) return;
   const int flags = (stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) | O_CLOEXEC;
@@ -59,12 +59,15 @@ void restore_sigpipe() {
   sigaction(SIGPIPE, &callers_sigpipe, nullptr);
 }
 
-bool flush_standard_output(std::string& error) {
-  error.clear();
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
-  if (!told) error = std::string("standard output: ") + std::strerror(first_error != 0 ? first_error : errno);
-  told = true;
-  return false;
+Result<void> flush_standard_output() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return {};
+  failed = true;
+  const int code = first_error != 0 ? first_error : errno;
+  return Error{ErrorKind::kFile, std::string("standard output: ") + std::strerror(code)};
+}
+
+bool standard_output_has_failed() {
+  return failed;
 }
 
 }  // namespace tilepress

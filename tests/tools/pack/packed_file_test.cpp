@@ -1,11 +1,11 @@
 // A packed file gives back what was put in, and says so in one line when it is not whole.
-#include "frames/packed_file.h"
-
 #include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <sstream>
 
+#include "frames/packed_reader.h"
+#include "frames/packed_writer.h"
 #include "surface_samples.h"
 #include "tilepress/surface_reader.h"
 
@@ -24,12 +24,11 @@ std::string packed(const std::vector<CompressedSurface>& surfaces) {
 std::string complaint(const std::string& bytes) {
   std::istringstream in(bytes);
   PackedFileReader reader;
-  std::string error;
-  if (!reader.open(in, error)) return error.empty() ? "refused without a word" : error;
   CompressedSurface surface;
-  for (uint32_t i = 0; i < reader.count(); ++i)
-    if (!reader.read(i, surface, error)) return error.empty() ? "refused without a word" : error;
-  return {};
+  auto done = reader.open(in);
+  for (uint32_t i = 0; done && i < reader.count(); ++i) done = reader.read(i, surface);
+  if (done) return {};
+  return done.error().text.empty() ? "refused without a word" : done.error().text;
 }
 
 std::vector<CompressedSurface> small_sequence(const std::string& scheme) {
@@ -48,11 +47,12 @@ TEST(PackedFile, GivesEverySurfaceBackAsItWas) {
             compress(scheme, {frame, frame}, {.tile_side = 16, .burst_bits = 256});
         std::istringstream in(packed({before, before}));
         PackedFileReader reader;
-        std::string error;
-        ASSERT_TRUE(reader.open(in, error)) << error;
+        const auto opened = reader.open(in);
+        ASSERT_TRUE(opened) << opened.error().text;
         ASSERT_EQ(reader.count(), 2u);
         CompressedSurface after;
-        ASSERT_TRUE(reader.read(1, after, error)) << error;
+        const auto read = reader.read(1, after);
+        ASSERT_TRUE(read) << read.error().text;
         EXPECT_EQ(after.scheme.text, scheme);
         EXPECT_EQ(after.format, format);
         EXPECT_EQ(after.width, width);

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "published_means.h"
+#include "sections.h"
 
 namespace tilepress {
 namespace {
@@ -33,11 +33,11 @@ TEST(HarmonicMean, IsTheCountOverTheSumOfInverses) {
   EXPECT_TRUE(std::isnan(harmonic_mean({})));
 }
 
-TEST(EnergyModel, GivesThePapersSavingsFromItsRates) {
-  const EnergyModel model;
+TEST(Energy, GivesThePapersSavingsFromItsRates) {
+  const Batch batch;
   // 1 - 1/5.26 - 4.83/451.2 = 0.79918; 1 - 1/1.75 - 4.83/451.2 = 0.41787.
-  EXPECT_NEAR(model.saving(5.26), 0.799, 0.0005);
-  EXPECT_NEAR(model.saving(1.75), 0.418, 0.0005);
+  EXPECT_NEAR(energy_saving(5.26, batch.energy), 0.799, 0.0005);
+  EXPECT_NEAR(energy_saving(1.75, batch.energy), 0.418, 0.0005);
 }
 
 TEST(Batch, RunsStandByCategoryAndInItByTheBaselinesRate) {
@@ -67,7 +67,7 @@ TEST(HtmlText, NamesFromOutsideCannotBecomeMarkup) {
   Batch batch;
   batch.runs = {run_of("<script>alert(1)</script>", "<b>", 100)};
   arrange_batch(batch);
-  for (const Section& section : batch_sections(batch))
+  for (const Section& section : page_sections(batch))
     EXPECT_EQ(section_html(section).find("<script"), std::string::npos);
   EXPECT_EQ(run_parts(batch).find("<script"), std::string::npos);
 }

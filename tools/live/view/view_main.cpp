@@ -239,14 +239,13 @@ void ViewWindow::set_title() {
 int ViewWindow::write_screenshot() {
   const ScreenImage image = read_window(width_, height_);
   OutputFile file;
-  std::string error;
   const auto append = [](void* to, void* bytes, int size) {
     static_cast<OutputFile*>(to)->write({static_cast<const char*>(bytes), static_cast<size_t>(size)});
   };
-  if (!file.open(request_.screenshot, true, error)) return fail_view(1, error);
+  if (const auto opened = file.open(request_.screenshot, true); !opened) return fail_view(1, opened.error().text);
   if (stbi_write_png_to_func(append, &file, width_, height_, 3, image.bytes.data(), width_ * 3) == 0)
     return fail_view(1, request_.screenshot + ": cannot be encoded");
-  if (!file.commit(error)) return fail_view(1, error);
+  if (const auto done = file.commit(); !done) return fail_view(1, done.error().text);
   const LiveState& state = watch_.picture().head.state;
   show(fmt::format("{}: frame {} of surface {}\n", request_.screenshot, state.frame, state.surface));
   return 0;

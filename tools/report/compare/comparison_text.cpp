@@ -6,19 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/compare/text_grid.h"
 #include "tilepress/csv_table.h"
 
 namespace tilepress {
 namespace {
-
-using Row = std::vector<std::string>;
-
-struct Grid {
-  std::string heading;
-  Row header;
-  std::vector<Row> rows;
-  size_t text_columns = 1;
-};
 
 std::string percent(double share) {
   return std::isnan(share) ? "-" : fmt::format("{:+.2f} %", share * 100);
@@ -30,50 +22,8 @@ std::string exact(double value) {
   return std::isnan(value) ? "" : csv_number(value);
 }
 
-size_t shown_width(const std::string& text) {
-  return static_cast<size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-std::string padded(const std::string& text, size_t width, bool right) {
-  const std::string space(width - std::min(width, shown_width(text)), ' ');
-  return right ? space + text : text + space;
-}
-
-std::string grid_text(const Grid& grid, bool markdown) {
-  std::vector<size_t> widths;
-  for (size_t i = 0; i < grid.header.size(); ++i) {
-    size_t width = std::max<size_t>(3, shown_width(grid.header[i]));
-    for (const Row& row : grid.rows) width = std::max(width, shown_width(row[i]));
-    widths.push_back(width);
-  }
-  const auto line = [&](const Row& row) {
-    std::string out = markdown ? "|" : "";
-    for (size_t i = 0; i < row.size(); ++i) {
-      out += markdown ? " " : (i > 0 ? "  " : "");
-      out += padded(row[i], widths[i], i >= grid.text_columns);
-      if (markdown) out += " |";
-    }
-    while (!out.empty() && out.back() == ' ') out.pop_back();
-    return out + "\n";
-  };
-  std::string out;
-  if (!grid.heading.empty())
-    out = fmt::format("\n{}{}\n{}", markdown ? "### " : "", grid.heading, markdown ? "\n" : "");
-  out += line(grid.header);
-  if (markdown) {
-    out += "|";
-    for (size_t i = 0; i < widths.size(); ++i)
-      out += i < grid.text_columns ? fmt::format(" {:-<{}} |", "", widths[i])
-                                   : fmt::format(" {:->{}} |", ":", widths[i]);
-    out += "\n";
-  }
-  for (const Row& row : grid.rows) out += line(row);
-  return out;
-}
-
-Grid scheme_grid(const std::vector<RunComparison>& runs) {
-  Grid grid{"", {"workload", "scheme", "frames", "rate A", "rate B", "change", "better", "worse"}, {}, 2};
+TextGrid scheme_grid(const std::vector<RunComparison>& runs) {
+  TextGrid grid{"", {"workload", "scheme", "frames", "rate A", "rate B", "change", "better", "worse"}, {}, 2};
   for (const RunComparison& run : runs)
     for (const SchemeComparison& scheme : run.schemes) {
       const double a = scheme.a.rate(), b = scheme.b.rate();
@@ -98,8 +48,8 @@ std::vector<FramePair> chosen_frames(const SchemeComparison& scheme, bool all) {
   return frames;
 }
 
-Grid frame_grid(const std::vector<RunComparison>& runs, bool all) {
-  Grid grid{all ? "Frame by frame" : "Frames that differ most",
+TextGrid frame_grid(const std::vector<RunComparison>& runs, bool all) {
+  TextGrid grid{all ? "Frame by frame" : "Frames that differ most",
             {"workload", "scheme", "surface", "frame", "rate A", "rate B", "change"},
             {},
             2};
@@ -112,22 +62,13 @@ Grid frame_grid(const std::vector<RunComparison>& runs, bool all) {
   return grid;
 }
 
-std::string csv_row(const Row& row) {
-  std::string out;
-  for (size_t i = 0; i < row.size(); ++i) {
-    out += i > 0 ? "," : "";
-    out += csv_field(row[i]);
-  }
-  return out + "\n";
-}
-
 std::string sizes_text(const SchemeStatistics& a, const SchemeStatistics& b) {
   return fmt::format(",{},{},{},{},{},{},{}\n", a.raw_bits, b.raw_bits, a.moved_bits(), b.moved_bits(),
                      exact(a.rate()), exact(b.rate()), exact(relative_change(a.rate(), b.rate())));
 }
 
 std::string csv_text(const std::vector<RunComparison>& runs, bool per_frame) {
-  Row header = {"workload", "scheme"};
+  TextRow header = {"workload", "scheme"};
   for (const char* name : {"surface", "frame"})
     if (per_frame) header.push_back(name);
   for (const char* name : {"frames", "better", "worse"})
@@ -135,7 +76,7 @@ std::string csv_text(const std::vector<RunComparison>& runs, bool per_frame) {
   for (const char* name :
        {"raw_bits_a", "raw_bits_b", "moved_bits_a", "moved_bits_b", "rate_a", "rate_b", "change"})
     header.push_back(name);
-  std::string out = csv_row(header);
+  std::string out = fmt::format("{}\n", fmt::join(header, ","));
   for (const RunComparison& run : runs)
     for (const SchemeComparison& scheme : run.schemes) {
       const std::string names = csv_field(run.name) + "," + csv_field(scheme.scheme);
@@ -149,22 +90,13 @@ std::string csv_text(const std::vector<RunComparison>& runs, bool per_frame) {
   return out;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) {
-    out += out.empty() ? "" : " ";
-    out += word;
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string comparison_text(const std::vector<RunComparison>& runs, ComparisonFormat format, bool per_frame) {
   if (format == ComparisonFormat::kCsv) return csv_text(runs, per_frame);
   const bool markdown = format == ComparisonFormat::kMarkdown;
   std::string out = grid_text(scheme_grid(runs), markdown);
-  const Grid frames = frame_grid(runs, per_frame);
+  const TextGrid frames = frame_grid(runs, per_frame);
   if (!frames.rows.empty()) out += grid_text(frames, markdown);
   std::string remarks;
   for (const RunComparison& run : runs)
@@ -181,8 +113,8 @@ std::vector<std::string> comparison_remarks(const RunComparison& run) {
   if (run.different_pictures > 0)
     out.push_back(fmt::format("not the same pictures: colours differ in {} of {} frames",
                               run.different_pictures, run.common));
-  if (!run.schemes_only_a.empty()) out.push_back("schemes only in A: " + joined(run.schemes_only_a));
-  if (!run.schemes_only_b.empty()) out.push_back("schemes only in B: " + joined(run.schemes_only_b));
+  if (!run.schemes_only_a.empty()) out.push_back(fmt::format("schemes only in A: {}", fmt::join(run.schemes_only_a, " ")));
+  if (!run.schemes_only_b.empty()) out.push_back(fmt::format("schemes only in B: {}", fmt::join(run.schemes_only_b, " ")));
   return out;
 }
 

@@ -6,13 +6,23 @@
 #include <cmath>
 #include <iterator>
 
-#include "tilepress/scheme.h"
+#include "report/scheme_names.h"
 
 namespace tilepress {
 namespace {
 
 constexpr const char* kBegin = "\n---------- Begin Simulation Statistics ----------\n";
 constexpr const char* kEnd = "\n---------- End Simulation Statistics   ----------\n";
+
+/// "vdcp_blocks" as "vdcpBlocks".
+std::string camel_case(std::string_view column) {
+  std::string out;
+  for (size_t i = 0; i < column.size(); ++i) {
+    const bool upper = i > 0 && column[i - 1] == '_' && column[i] >= 'a' && column[i] <= 'z';
+    if (column[i] != '_') out += upper ? static_cast<char>(column[i] - 'a' + 'A') : column[i];
+  }
+  return out;
+}
 
 /// Lines of one dump.
 class Dump {
@@ -32,16 +42,16 @@ class Dump {
     count(group + "bursts", sizes.bursts, "DRAM bursts that carry the payload", "Count");
     count(group + "csbBits", sizes.csb_bits, "Compression status bits", "Bit");
     count(group + "paletteBits", sizes.palette_bits, "Palettes and code tables", "Bit");
-    count(group + "movedBits", sizes.moved_bits(), "Bits moved to DRAM, all told", "Bit");
+    count(group + "movedBits", sizes.moved_bits(), "All bits moved to DRAM", "Bit");
     real(group + "ratePayload", sizes.raw_bits > 0 ? sizes.rate_payload() : NAN,
          "Compression rate without bursts", "Ratio");
     real(group + "rate", sizes.raw_bits > 0 ? sizes.rate() : NAN, "Compression rate: rawBits / movedBits",
          "Ratio");
-    const SchemeInfo* info = find_scheme(scheme.substr(0, scheme.find(':')));
-    if (info != nullptr && std::string_view(info->family) == "hybrid" && sizes.own[0] + sizes.own[1] > 0) {
-      count(group + "vdcpBlocks", sizes.own[0], "Blocks that the hybrid coded by VDCP", "Count");
-      count(group + "rasBlocks", sizes.own[1], "Blocks that the hybrid coded by RAS", "Count");
-    }
+    const SchemeInfo* info = scheme_info(scheme);
+    if (info == nullptr || sizes.own == OwnCounts{}) return;
+    for (size_t i = 0; i < info->columns.size(); ++i)
+      count(group + camel_case(info->columns[i]), sizes.own[i],
+            fmt::format("Column {} of schemes.csv", info->columns[i]).c_str(), "Count");
   }
   std::string end() const { return text_ + kEnd; }
 
@@ -94,7 +104,7 @@ std::string gem5_stats(const RunRecord& run, const std::string& prefix, bool per
   }
   Dump dump(prefix);
   dump.count("frames", run.frames.size(), "Frames captured", "Count");
-  dump.count("measuredFrames", run.measured_frames, "Frames that are not warm-up: those of all sums here",
+  dump.count("measuredFrames", run.measured_frames, "Frames that are not warm-up; the sums count these",
              "Count");
   for (size_t i = 0; i < run.scheme_names.size(); ++i) dump.scheme(run.scheme_names[i], run.totals[i]);
   return dump.end();

@@ -7,12 +7,11 @@
 
 namespace tilepress {
 
-/// One dump ("Begin Simulation Statistics" … "End") with the run's sums, or with `per_frame` one dump for
-/// each frame that is not warm-up. Lines are `name value # description (Unit)`; names start with `prefix` and
-/// a dot.
+/// One dump ("Begin Simulation Statistics" … "End") with the run's sums. With `per_frame` one dump per frame
+/// that is not warm-up. Lines are `name value # description (Unit)`. Names start with `prefix` and a dot.
 std::string gem5_stats(const RunRecord& run, const std::string& prefix, bool per_frame);
 
-/// `text` as one part of a statistic's name: letters, digits and '_' stay, others become '_'.
+/// `text` as one part of a statistic's name. Letters, digits and '_' stay; other characters become '_'.
 std::string gem5_name(const std::string& text);
 
 }  // namespace tilepress

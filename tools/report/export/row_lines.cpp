@@ -13,12 +13,11 @@
 namespace tilepress {
 namespace {
 
-bool read_text(const std::string& path, std::string& text, std::string& error) {
+Result<std::string> read_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  text.assign(std::istreambuf_iterator<char>(file), {});
-  if (file.is_open() && !file.bad()) return true;
-  error = path + ": " + std::strerror(errno);
-  return false;
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (!file.is_open() || file.bad()) return Error{ErrorKind::kFile, path + ": " + std::strerror(errno)};
+  return text;
 }
 
 std::string json_text(const std::string& text) {
@@ -45,12 +44,12 @@ bool is_json_number(const std::string& text) {
   return i == text.size();
 }
 
-bool write_rows(const std::string& file, const std::string& start, OutputFile& out, std::string& error) {
-  std::string text;
-  if (!read_text(file, text, error)) return false;
-  CsvReader reader(text);
+Result<void> write_rows(const std::string& file, const std::string& start, OutputFile& out) {
+  const auto text = read_text(file);
+  if (!text) return text.error();
+  CsvReader reader(*text);
   std::vector<std::string> header, fields;
-  if (!reader.next(header)) return true;
+  if (!reader.next(header)) return {};
   for (std::string& name : header) name = ',' + json_text(name) + ':';
   while (reader.next(fields)) {
     std::string line = start;
@@ -63,25 +62,24 @@ bool write_rows(const std::string& file, const std::string& start, OutputFile& o
     line += "}\n";
     out.write(line);
   }
-  return true;
+  return {};
 }
 
 }  // namespace
 
-bool write_row_lines(const std::string& path, const std::string& name, OutputFile& out, std::string& error) {
+Result<void> write_row_lines(const std::string& path, const std::string& name, OutputFile& out) {
   const std::string run = ",\"run\":" + json_text(name);
-  std::string text, missing;
-  // A run without run.json, or with one cut off by a crash, still has its rows.
-  if (read_text(path + "/run.json", text, missing)) {
-    const auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+  // A run whose run.json is missing or was cut off by a crash still has its rows.
+  if (const auto text = read_text(path + "/run.json")) {
+    const auto json = nlohmann::ordered_json::parse(*text, nullptr, false);
     if (json.is_object()) {
       nlohmann::ordered_json line = {{"type", "run"}, {"run", name}};
       for (const auto& [key, value] : json.items()) line[key] = value;
       out.write(line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     }
   }
-  return write_rows(path + "/frames.csv", "{\"type\":\"frame\"" + run, out, error) &&
-         write_rows(path + "/schemes.csv", "{\"type\":\"scheme\"" + run, out, error);
+  const auto frames = write_rows(path + "/frames.csv", "{\"type\":\"frame\"" + run, out);
+  return frames ? write_rows(path + "/schemes.csv", "{\"type\":\"scheme\"" + run, out) : frames;
 }
 
 }  // namespace tilepress

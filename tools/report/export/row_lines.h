@@ -4,12 +4,13 @@
 #include <string>
 
 #include "streams/output_file.h"
+#include "tilepress/result.h"
 
 namespace tilepress {
 
 /// Writes to `out`: run.json as {"type":"run",…}, each row of frames.csv as {"type":"frame",…} and each row
-/// of schemes.csv as {"type":"scheme",…}, every column under its name, numbers with the digits they have in
-/// the file. All objects have "run": `name`. False and one line in `error` on failure.
-bool write_row_lines(const std::string& path, const std::string& name, OutputFile& out, std::string& error);
+/// of schemes.csv as {"type":"scheme",…}. Each column stands under its name, numbers with their digits in the
+/// file. All objects have "run": `name`.
+Result<void> write_row_lines(const std::string& path, const std::string& name, OutputFile& out);
 
 }  // namespace tilepress

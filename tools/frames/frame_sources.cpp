@@ -1,0 +1,158 @@
+// Frame sources: stat() for all paths first, then headers.
+#include "frames/frame_sources.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <set>
+
+#include "frames/piped_file.h"
+#include "images/image_kind.h"
+#include "images/image_library.h"
+#include "streams/ending_signals.h"
+#include "streams/messages.h"
+#include "streams/quiet_standard_error.h"
+
+namespace tilepress {
+namespace {
+
+/// A few bytes of a file can claim more pixels than any memory holds.
+constexpr uint64_t kMostImagePixels = uint64_t{1} << 28;
+/// Enough of a pipe to know whether it is a movie.
+constexpr size_t kMovieStartBytes = 65536;
+
+/// Whether the first bytes of a pipe are certainly an image and no raw frame.
+bool is_surely_image(const std::string& start) {
+  const ImageReader reader = image_kind(start).reader;
+  return reader == ImageReader::kPng || reader == ImageReader::kGif || reader == ImageReader::kWebp;
+}
+
+class SourceFinder {
+ public:
+  SourceFinder(std::optional<FrameSize> raw_size, PixelFormat raw_format)
+      : takes_raw_(raw_size.has_value()), raw_format_(raw_format) {
+    found_.size = raw_size.value_or(FrameSize{});
+  }
+
+  Result<FrameSources> find(const std::vector<std::string>& paths) {
+    for (const std::string& path : paths)
+      if (const auto checked = check_path(path); !checked) return checked.error();
+    for (const std::string& path : paths) {
+      if (const int signal = noted_signal(); signal != 0) return Error{ErrorKind::kSystem, signal_text(signal)};
+      struct stat status {};
+      const bool regular = path != "-" && stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+      const auto added = !regular       ? add_pipe(path)
+                         : is_raw(path) ? add_raw_file(path)
+                                        : add_image_file(path, path, nullptr);
+      if (!added) return about(path, added.error());
+    }
+    return std::move(found_);
+  }
+
+ private:
+  bool all_raw() const { return takes_raw_ && raw_format_ != PixelFormat::kRgba8; }
+  bool is_raw(const std::string& path) const { return all_raw() || (takes_raw_ && path.ends_with(".rgba")); }
+
+  /// Looks at a path before any file is opened: a pipe can be read only once.
+  Result<void> check_path(const std::string& path) {
+    const bool standard_input = path == "-";
+    if (standard_input && !takes_raw_)
+      return Error{ErrorKind::kBadValue, path + ": raw frames on standard input need --size WxH"};
+    struct stat status {};
+    if (standard_input ? fstat(STDIN_FILENO, &status) != 0
+                       : stat(path.c_str(), &status) != 0 || access(path.c_str(), R_OK) != 0)
+      return Error{ErrorKind::kFile, path + ": " + std::strerror(errno)};
+    if (S_ISDIR(status.st_mode)) return Error{ErrorKind::kFile, path + ": is a folder; name its images"};
+    if (!takes_raw_ && path.ends_with(".rgba"))
+      return Error{ErrorKind::kBadValue, path + ": a raw frame needs --size WxH"};
+    const bool pipe = standard_input || !S_ISREG(status.st_mode);
+    if (pipe && !pipes_.insert({status.st_dev, status.st_ino}).second)
+      return Error{ErrorKind::kFile, path + ": is a pipe that is named twice; it can be read once"};
+    return {};
+  }
+
+  Result<void> accept(const ImageHeader& image) {
+    const FrameSize size{image.width, image.height};
+    const auto refuse = [&](const std::string& why) {
+      return Error{ErrorKind::kUnsupported, "is " + size.text() + ", " + why};
+    };
+    if (!size.is_possible()) return refuse("a side is not in 1.." + std::to_string(kMaxSurfaceSide));
+    if (size.pixels() > kMostImagePixels)
+      return refuse("more than " + std::to_string(kMostImagePixels) + " pixels");
+    if (found_.size == FrameSize{}) found_.size = size;
+    if (size != found_.size) return refuse("the sequence is " + found_.size.text());
+    if (image.channels == 2 || image.channels == 4) found_.format = PixelFormat::kRgba8;
+    return {};
+  }
+
+  /// `kept` keeps the file at `path` open.
+  Result<void> add_image_file(const std::string& name, const std::string& path, std::shared_ptr<Pipe> kept) {
+    std::string left_out;
+    {
+      const QuietStandardError quiet;
+      const OpenedImage opened = open_image(path);
+      if (!opened) return opened.error();
+      const ImageFile& file = **opened;
+      for (uint32_t image = 0; image < file.images().size(); ++image) {
+        if (const auto accepted = accept(file.images()[image]); !accepted)
+          return image == 0 ? accepted.error() : about("image " + std::to_string(image), accepted.error());
+        const auto kind = file.is_sequence() ? FrameSource::Kind::kSequence : FrameSource::Kind::kImage;
+        add({kind, name, path, image, kept});
+      }
+      left_out = file.left_out();
+    }
+    if (!left_out.empty()) say(MessageLevel::kWarning, name + ": " + left_out);
+    return {};
+  }
+
+  Result<void> add_raw_file(const std::string& path) {
+    found_.format = raw_format_;
+    struct stat status {};
+    if (stat(path.c_str(), &status) != 0) return Error{ErrorKind::kFile, std::strerror(errno)};
+    if (static_cast<uint64_t>(status.st_size) != found_.frame_bytes())
+      return Error{ErrorKind::kFile, std::to_string(status.st_size) + " bytes, a raw frame of " +
+                                         found_.size.text() + " has " + std::to_string(found_.frame_bytes())};
+    add({FrameSource::Kind::kRawFile, path, path, 0, nullptr});
+    return {};
+  }
+
+  Result<void> add_pipe(const std::string& path) {
+    const auto opened = Pipe::open(path);
+    if (!opened) return opened.error();
+    const std::shared_ptr<Pipe> pipe = *opened;
+    if (all_raw() || (takes_raw_ && (path == "-" || !is_surely_image(pipe->peek(kImageKindBytes))))) {
+      found_.format = raw_format_;
+      add({FrameSource::Kind::kRawPipe, path, path, 0, pipe});
+      return {};
+    }
+    const std::string& start = pipe->peek(kMovieStartBytes);
+    const auto library = image_library();
+    if (!library) return library.error();
+    if (image_kind(start).reader == ImageReader::kMovie && !(*library)->may_be_movie(start))
+      return Error{ErrorKind::kUnsupported, "not an image; raw frames need --size WxH too"};
+    const auto copy = copy_to_file(*pipe);
+    if (!copy) return copy.error();
+    return add_image_file(path, (*copy)->path(), *copy);
+  }
+
+  void add(FrameSource source) {
+    found_.streamed |= source.is_stream();
+    found_.list.push_back(std::move(source));
+  }
+
+  const bool takes_raw_;
+  const PixelFormat raw_format_;
+  std::set<std::pair<dev_t, ino_t>> pipes_;
+  FrameSources found_;
+};
+
+}  // namespace
+
+Result<FrameSources> find_frame_sources(const std::vector<std::string>& paths,
+                                        std::optional<FrameSize> raw_size, PixelFormat raw_format) {
+  return SourceFinder(raw_size, raw_format).find(paths);
+}
+
+}  // namespace tilepress

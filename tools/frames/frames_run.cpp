@@ -1,0 +1,103 @@
+// Frames run: streams run on this thread, all other sequences as a batch.
+#include "frames/frames_run.h"
+
+#include "frames/frame_batch.h"
+#include "frames/stop_watch.h"
+#include "frames/verify_error.h"
+#include "streams/ending_signals.h"
+#include "tilepress/frame_pictures.h"
+
+namespace tilepress {
+
+FramesRun::FramesRun(ImageFrames& images, const FramesOptions& options)
+    : images_(images),
+      options_(options),
+      progress_(options.quiet ? ProgressMode::kNever : options.progress, "frames") {
+  for (const SchemeSpec& spec : options.run.schemes) record_.scheme_names.push_back(spec.text);
+  record_.totals.assign(options.run.schemes.size(), {});
+  for (SchemeStatistics& total : record_.totals) total.burst_bits = options.run.model.burst_bits;
+}
+
+Result<void> FramesRun::open(const RunInfo& info) {
+  if (!options_.cdf_path.empty())
+    if (const auto opened = cdf_.open(options_.cdf_path, options_.force); !opened) return opened;
+  return sink_.open(options_.run, info, options_.force);
+}
+
+Result<bool> FramesRun::process() {
+  return images_.streamed() ? process_stream() : process_batch();
+}
+
+/// Writes the rows of a frame and adds the frame to the sums.
+Result<void> FramesRun::take(const FrameStatistics& statistics) {
+  ++record_.counts.seen;
+  ++record_.counts.captured;
+  if (const auto appended = sink_.append(statistics); !appended) return appended;
+  record_.measured_frames += statistics.warmup ? 0 : 1;
+  for (size_t i = 0; i < record_.totals.size(); ++i) {
+    const SchemeStatistics& scheme = statistics.schemes[i];
+    if (!statistics.warmup) record_.totals[i] += scheme;
+    if (scheme.mismatched_blocks > 0)
+      mismatch_ = verify_error(record_.scheme_names[i], statistics.frame, scheme.mismatched_blocks);
+  }
+  if (record_.frames.empty()) record_.frames.push_back(statistics);
+  return {};
+}
+
+Result<bool> FramesRun::process_stream() {
+  SurfaceEngine engine(options_.run.schemes, options_.run.model);
+  FramePictures pictures;
+  if (!options_.to_stdout()) pictures.open(options_.run.output, options_.run);
+  const StopWatch clock;
+  FrameStatistics statistics;
+  ImageFrame frame;
+  const auto last = options_.run.frames.last();
+  for (uint64_t number = 0; !last || number <= *last; ++number) {
+    const auto read = images_.read(number, frame);
+    if (!read) return read;
+    if (!*read) return true;
+    if (!options_.run.takes(number)) {
+      ++record_.counts.seen;
+      ++record_.counts.skipped;
+      continue;
+    }
+    statistics.frame = number;
+    statistics.time_ns = clock.nanoseconds();
+    statistics.readback_ns = frame.decode_ns;
+    const SurfaceView view = images_.view(frame);
+    engine.note_block_bits(pictures.bits_for(number));
+    engine.process(view, statistics);
+    if (const auto written = pictures.write(statistics, view); !written) return written.error();
+    if (options_.wants_cdf(number))
+      if (const auto appended = cdf_.append(statistics, view); !appended) return appended.error();
+    if (const auto taken = take(statistics); !taken) return taken.error();
+    if (noted_signal() != 0) return false;
+    progress_.show(number + 1, {});
+  }
+  return true;
+}
+
+Result<bool> FramesRun::process_batch() {
+  std::vector<uint64_t> numbers;
+  for (uint64_t number = 0; number < *images_.count(); ++number)
+    if (options_.run.takes(number)) numbers.push_back(number);
+  record_.counts.skipped = record_.counts.seen = *images_.count() - numbers.size();
+  ImageFrames cdf_images = images_.another();
+  ImageFrame cdf_frame;
+  const auto deliver = [&](const FrameStatistics& statistics) -> Result<bool> {
+    if (const auto taken = take(statistics); !taken) return taken.error();
+    if (options_.wants_cdf(statistics.frame)) {
+      // The batch keeps no pixels: these few frames are decoded a second time.
+      const auto read = cdf_images.read(statistics.frame, cdf_frame);
+      if (!read || !*read) return read;
+      const auto appended = cdf_.append(statistics, cdf_images.view(cdf_frame));
+      if (!appended) return appended.error();
+    }
+    progress_.show(record_.counts.captured, numbers.size());
+    return noted_signal() == 0 || record_.counts.captured == numbers.size();
+  };
+  return run_frame_batch(images_, numbers, options_.run, options_.to_stdout() ? "" : options_.run.output,
+                         options_.jobs, noted_signal(), deliver);
+}
+
+}  // namespace tilepress

@@ -1,0 +1,63 @@
+// Frames run: passes all frames of a sequence through the model, writes their rows, and adds them up.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frames/cdf_file.h"
+#include "frames/image_frames.h"
+#include "frames/row_sink.h"
+#include "progress_line.h"
+#include "tilepress/run_reader.h"
+
+namespace tilepress {
+
+/// The options of `tilepress frames`.
+struct FramesOptions {
+  RunOptions run;
+  std::vector<std::string> images;
+  std::optional<FrameSize> size;
+  ProgressMode progress = ProgressMode::kAuto;
+  uint32_t jobs = 1;
+  std::string cdf_path;  ///< empty: no CDF file
+  FrameSet cdf_frames;
+  bool force = false;
+  bool quiet = false;
+  bool wants_cdf(uint64_t frame) const { return !cdf_path.empty() && cdf_frames.contains(frame); }
+  bool to_stdout() const { return run.output == "-"; }
+};
+
+class FramesRun {
+ public:
+  /// Both must outlive the run.
+  FramesRun(ImageFrames& images, const FramesOptions& options);
+  /// Opens the files to write.
+  Result<void> open(const RunInfo& info);
+  /// Processes every frame. Returns false if a signal ended the run early. Rows of the frames before are
+  /// whole.
+  Result<bool> process();
+  /// Closes the run. `reason`: why the state is not "finished".
+  Result<void> finish(const std::string& state, const std::string& reason) {
+    return sink_.finish(record_.counts, state, reason);
+  }
+  /// Sums and counts for the summary.
+  const RunRecord& record() const { return record_; }
+  /// The last mismatch that --verify found.
+  const std::optional<Error>& mismatch() const { return mismatch_; }
+
+ private:
+  Result<bool> process_stream();
+  Result<bool> process_batch();
+  Result<void> take(const FrameStatistics& statistics);
+
+  ImageFrames& images_;
+  const FramesOptions& options_;
+  ProgressLine progress_;
+  RowSink sink_;
+  CdfFile cdf_;
+  RunRecord record_;
+  std::optional<Error> mismatch_;
+};
+
+}  // namespace tilepress
