@@ -17,8 +17,7 @@ int report_nothing_captured(const LaunchOptions& options, const SessionFolder& s
         fmt::format(": {} presented, none of them asked for, readable and in a modelled format", frames_seen);
   fail(kExitNothingCaptured, line);
   std::string text =
-      "  looked for: eglSwapBuffers, eglSwapBuffersWithDamageKHR and EXT, glXSwapBuffers and similar "
-      "functions,\n"
+      "  looked for: eglSwapBuffers, eglSwapBuffersWithDamageKHR and EXT, glXSwapBuffers and the like,\n"
       "  linked, by dlsym, or by eglGetProcAddress and glXGetProcAddress\n";
   if (options.run.triggers == 0)
     text += "  if the program draws and presents nothing, try --trigger finish,flush,readpixels\n";
@@ -28,8 +27,8 @@ int report_nothing_captured(const LaunchOptions& options, const SessionFolder& s
   const std::string& folder = options.run.output;
   if (!unreached.empty())
     text += fmt::format(
-        "  these processes could not write to the session folder in {}: they have another root, /tmp or "
-        "user.\n"
+        "  these processes could not write to the session folder in {}:\n"
+        "  they have another root, /tmp or user.\n"
         "  Use -o with a folder that they see under the same path and may write\n",
         folder);
   else if (seen.empty())

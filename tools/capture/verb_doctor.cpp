@@ -30,10 +30,16 @@ struct Finding {
   std::string package;  ///< Debian package that contains it
 };
 
-Finding find_tool(const char* name, const char* purpose, const char* package) {
-  const auto path = find_program(name);
-  return {name, path.has_value(), false, path ? *path + ", " + purpose : purpose, package};
-}
+struct Tool {
+  const char *name, *purpose, *package;
+};
+constexpr Tool kTools[] = {{"glretrace", "replays GLX traces on an X display", "apitrace"},
+                           {"apitrace", "records traces", "apitrace"},
+                           {"Xvfb", "an X server without a screen", "xvfb"},
+                           {"xvfb-run", "runs a program in an Xvfb", "xvfb"},
+                           {"xauth", "required by xvfb-run", "xauth"},
+                           {"glmark2-es2", "a program to try, EGL", "glmark2-es2-x11"},
+                           {"glmark2", "a program to try, GLX", "glmark2-x11"}};
 
 bool file_contains(const std::string& path, const char* word) {
   std::ifstream file(path, std::ios::binary);
@@ -103,16 +109,14 @@ void add_displays(std::vector<Finding>& findings) {
                       wayland != nullptr ? wayland : "WAYLAND_DISPLAY is not set", ""});
 }
 
-void add_replay(std::vector<Finding>& findings) {
+Finding find_retracer() {
   const auto retracer = find_program("eglretrace");
   const bool waffle = retracer && file_contains(*retracer, "libwaffle");
-  findings.push_back({"eglretrace", waffle, false,
-                      !retracer ? "replays traces"
-                      : waffle  ? *retracer + ", with waffle: replays without a display"
-                                : *retracer + " is built without waffle and needs a display",
-                      "apitrace"});
-  findings.push_back(find_tool("glretrace", "replays GLX traces on an X display", "apitrace"));
-  findings.push_back(find_tool("apitrace", "records traces", "apitrace"));
+  return {"eglretrace", waffle, false,
+          !retracer ? "replays traces"
+          : waffle  ? *retracer + ", with waffle: replays without a display"
+                    : *retracer + " is built without waffle and needs a display",
+          "apitrace"};
 }
 
 /// Tests whether the shim gets into a program and captures it.
@@ -131,12 +135,11 @@ std::vector<Finding> examine() {
     findings.push_back(test_road(*shim, ShimRoad::kGlvnd, false, "through libglvnd: "));
   }
   add_displays(findings);
-  findings.push_back(find_tool("Xvfb", "an X server without a screen", "xvfb"));
-  findings.push_back(find_tool("xvfb-run", "runs a program in one", "xvfb"));
-  findings.push_back(find_tool("xauth", "which xvfb-run needs", "xauth"));
-  add_replay(findings);
-  findings.push_back(find_tool("glmark2-es2", "a program to try, EGL", "glmark2-es2-x11"));
-  findings.push_back(find_tool("glmark2", "a program to try, GLX", "glmark2-x11"));
+  findings.push_back(find_retracer());
+  for (const auto& [name, purpose, package] : kTools) {
+    const auto path = find_program(name);
+    findings.push_back({name, path.has_value(), false, path ? *path + ", " + purpose : purpose, package});
+  }
   return findings;
 }
 
@@ -144,9 +147,8 @@ std::vector<Finding> examine() {
 
 int verb_doctor(int argc, char** argv) {
   CLI::App app(
-      "Checks what this machine has for capture and replay, and names missing packages. Exit 1 if no capture "
-      "is "
-      "possible.");
+      "Checks what this machine has for capture and replay, and names missing packages. "
+      "Exit 1 if no capture is possible.");
   bool json = false;
   app.add_flag("--json", json, "As JSON");
   if (auto status = parse_command_line(app, argc, argv)) return *status;

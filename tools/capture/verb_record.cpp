@@ -23,9 +23,9 @@ constexpr const char* kExamples =
     "  tilepress record -o desktop.trace -- glmark2-es2 -b desktop:duration=3 --run-forever\n"
     "  tilepress record --api glx -o gears.trace -- glxgears\n"
     "\n"
-    "The names in the program's file decide between EGL and GLX. If the recording holds no frame, the "
-    "program\n"
-    "runs again, recorded through the other API. Exit status: 0 frames recorded, 1 failed, 3 no frame.\n";
+    "The names in the program's file decide between EGL and GLX. If the recording holds no frame, the\n"
+    "program runs again, recorded through the other API.\n"
+    "Exit status: 0 frames recorded, 1 failed, 3 no frame.\n";
 
 enum class RecordApi : uint8_t { kAuto, kEgl, kGlx };
 

@@ -24,11 +24,10 @@ constexpr const char* kExamples =
     "  tilepress replay -o out --manifest traces.toml --verify\n"
     "  tilepress replay -s vdcp --frames 100-199 --display xvfb game.trace\n"
     "\n"
-    "The run of each trace goes to DIR/<trace name>/. replay.csv and categories.csv in DIR hold the rates "
-    "of\n"
-    "the traces and their harmonic means. A manifest has a [[trace]] table per trace: path, and optionally\n"
-    "name, sha256, category (UI, 2D, 3D) and frames. Exit status: 1 if a trace failed, 3 if nothing was\n"
-    "captured at all.\n";
+    "The run of each trace goes to DIR/<trace name>/. replay.csv and categories.csv in DIR hold the rates\n"
+    "of the traces and their harmonic means. A manifest has a [[trace]] table per trace: path, and\n"
+    "optionally name, sha256, category (UI, 2D, 3D) and frames.\n"
+    "Exit status: 1 if a trace failed, 3 if nothing was captured at all.\n";
 
 struct VerbOptions {
   ReplayOptions replay;

@@ -22,10 +22,9 @@ namespace {
 constexpr const char* kWindow = "tilepress-view";
 
 constexpr const char* kKeys =
-    "Keys: arrows or 1..9 scheme, h heat map, space freeze, + - zoom, f fit, Tab next capture, ? help, q "
-    "quit.\n"
-    "The captured program goes on when the window is closed or killed. The window is never part of a "
-    "frame.\n";
+    "Keys: arrows or 1..9 scheme, h heat map, space freeze, + - zoom, f fit, Tab next capture, ? help,\n"
+    "q quit. The captured program goes on when the window is closed or killed. The window is never part\n"
+    "of a frame.\n";
 
 }  // namespace
 
