@@ -11,9 +11,13 @@
 #include "gl_hooks.h"
 #include "presenting.h"
 
-tp_egl_boolean tp_on_egl_swap(void* real, tp_display display, tp_egl_surface surface) {
-  struct TilepressPresent present = {
+static struct TilepressPresent egl_present(void* real, tp_display display, tp_egl_surface surface) {
+  return (struct TilepressPresent){
       .api = TILEPRESS_EGL, .real = real, .display = display, .surface = (uintptr_t)surface};
+}
+
+tp_egl_boolean tp_on_egl_swap(void* real, tp_display display, tp_egl_surface surface) {
+  struct TilepressPresent present = egl_present(real, display, surface);
   if (real == NULL) return 0;
   const bool taken = tp_presenting(&present);
   const tp_egl_boolean result = ((tp_egl_boolean(*)(tp_display, tp_egl_surface))real)(display, surface);
@@ -24,12 +28,9 @@ tp_egl_boolean tp_on_egl_swap(void* real, tp_display display, tp_egl_surface sur
 tp_egl_boolean tp_on_egl_swap_with_damage(void* real, tp_display display, tp_egl_surface surface,
                                           const tp_egl_int* rectangles, tp_egl_int count) {
   typedef tp_egl_boolean (*function)(tp_display, tp_egl_surface, const tp_egl_int*, tp_egl_int);
-  struct TilepressPresent present = {.api = TILEPRESS_EGL,
-                                     .real = real,
-                                     .display = display,
-                                     .surface = (uintptr_t)surface,
-                                     .damage = rectangles,
-                                     .damage_count = count};
+  struct TilepressPresent present = egl_present(real, display, surface);
+  present.damage = rectangles;
+  present.damage_count = count;
   if (real == NULL) return 0;
   const bool taken = tp_presenting(&present);
   const tp_egl_boolean result = ((function)real)(display, surface, rectangles, count);
@@ -42,12 +43,9 @@ tp_egl_boolean tp_on_egl_post_sub_buffer(void* real, tp_display display, tp_egl_
   typedef tp_egl_boolean (*function)(tp_display, tp_egl_surface, tp_egl_int, tp_egl_int, tp_egl_int,
                                      tp_egl_int);
   const int32_t damage[4] = {x, y, width, height};
-  struct TilepressPresent present = {.api = TILEPRESS_EGL,
-                                     .real = real,
-                                     .display = display,
-                                     .surface = (uintptr_t)surface,
-                                     .damage = damage,
-                                     .damage_count = 1};
+  struct TilepressPresent present = egl_present(real, display, surface);
+  present.damage = damage;
+  present.damage_count = 1;
   if (real == NULL) return 0;
   const bool taken = tp_presenting(&present);
   const tp_egl_boolean result = ((function)real)(display, surface, x, y, width, height);
