@@ -1,4 +1,4 @@
-// The tilepress command: finds the verb in one table and hands over.
+// The tilepress command: finds the verb in the table and calls its function.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -16,21 +16,21 @@ namespace {
 
 constexpr Verb kVerbs[] = {
     {"run", "run a program and capture every frame it presents", verb_run, OnSignal::kVerbsOwn},
-    {"frames", "take frames from images or raw files", verb_frames, OnSignal::kEndInOrder},
+    {"frames", "compress a sequence of images, movies or raw frames", verb_frames, OnSignal::kEndInOrder},
     {"replay", "replay recorded traces without a display and capture their frames", verb_replay,
      OnSignal::kEndInOrder},
     {"record", "record a program into a trace", verb_record, OnSignal::kVerbsOwn},
     {"info", "print what recorded traces hold", verb_info},
-    {"bench", "time each scheme beside memcpy and LZ4", verb_bench},
-    {"report", "make a page for people from one run or many", verb_report},
-    {"compare", "two runs side by side, with an exit status for regressions", verb_compare},
-    {"pack", "write images as compressed surfaces to a file", verb_pack},
+    {"bench", "measure the speed of each scheme, memcpy and LZ4", verb_bench},
+    {"report", "write an HTML page about one run or many", verb_report},
+    {"compare", "compare two runs, with an exit status for regressions", verb_compare},
+    {"pack", "compress images into a file of compressed surfaces", verb_pack},
     {"unpack", "restore the images of a packed file, or read a part and count bursts", verb_unpack},
-    {"compose", "account the reads of several packed surfaces shown at once", verb_compose},
-    {"cost", "storage, area, speed and energy of the structures", verb_cost},
+    {"compose", "compute the read bandwidth of several packed surfaces shown at once", verb_compose},
+    {"cost", "print storage, area, speed and energy of the DCP structures", verb_cost},
     {"top", "watch running captures", verb_top, OnSignal::kVerbsOwn},
     {"view", "show the last frame of a running capture in a window", verb_view, OnSignal::kVerbsOwn},
-    {"export", "a run as gem5 statistics or JSON lines", verb_export},
+    {"export", "write runs as gem5 statistics or JSON lines", verb_export},
     {"schemes", "list the schemes and their options", verb_schemes},
     {"doctor", "check this machine and name missing packages", verb_doctor},
 };
@@ -69,7 +69,7 @@ int show_help() {
   return kExitDone;
 }
 
-/// TILEPRESS_SIMD=TARGET: for comparing instruction sets. The results are the same.
+/// TILEPRESS_SIMD=TARGET chooses the instruction set. The results are the same for every target.
 std::optional<int> force_simd() {
   const char* name = std::getenv("TILEPRESS_SIMD");
   if (name == nullptr || *name == '\0' || force_simd_target(name)) return {};

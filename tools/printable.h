@@ -6,7 +6,7 @@
 
 namespace tilepress {
 
-/// `text` with '?' for each control character, so that a file cannot send a terminal escape sequences.
+/// `text` with '?' for each control character: text from a file must not send escape sequences to a terminal.
 inline std::string printable(std::string_view text) {
   std::string safe(text);
   for (char& c : safe)

@@ -1,4 +1,4 @@
-// Summary table: sums over the frames that are not warmup.
+// Summary table: sums over the frames that are not warm-up.
 #include "summary_table.h"
 
 #include <fmt/format.h>
@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "counted.h"
 #include "tilepress/cost_model.h"
 
 namespace tilepress {
@@ -28,21 +29,21 @@ std::string shape_text(const std::vector<FrameStatistics>& frames) {
     last_surface = std::max(last_surface, frame.surface);
     uniform &= frame.width == first.width && frame.height == first.height && frame.format == first.format;
   }
-  if (!uniform) return fmt::format(", {} surfaces", last_surface + 1);
+  if (!uniform) return ", " + counted(last_surface + 1, "surface");
   return fmt::format(", {}x{} {}", first.width, first.height, traits(first.format).name);
 }
 
-/// What came of the frames that have no rows.
+/// Counts of the frames that have no rows.
 std::string shortfall_text(const RunCounts& counts) {
   std::string out;
-  if (counts.skipped > 0) out += fmt::format(", {} not asked for", counts.skipped);
+  if (counts.skipped > 0) out += fmt::format(", {} left out by --frames and --every", counts.skipped);
   if (counts.dropped > 0) out += fmt::format(", {} dropped (queue full)", counts.dropped);
   if (counts.unsupported > 0) out += fmt::format(", {} in an unsupported format", counts.unsupported);
   if (counts.not_captured > 0) out += fmt::format(", {} could not be read back", counts.not_captured);
   return out + '\n';
 }
 
-/// A line per scheme.
+/// One line per scheme.
 std::string rates_text(const std::vector<std::string>& names, const std::vector<SchemeStatistics>& totals) {
   size_t width = 6;
   for (const std::string& name : names) width = std::max(width, name.size());
@@ -71,8 +72,8 @@ std::string targets_text(const RunRecord& run) {
   std::set<uint32_t> surfaces;
   for (const FrameStatistics& frame : run.frames)
     if (is_target(frame.surface)) surfaces.insert(frame.surface);
-  std::string out = fmt::format("  render targets: {} frames of {} surfaces captured{}", counts.captured,
-                                surfaces.size(), shortfall_text(counts));
+  std::string out = fmt::format("  render targets: {} of {} captured{}", counted(counts.captured, "frame"),
+                                counted(surfaces.size(), "surface"), shortfall_text(counts));
   if (run.measured_targets > 0) out += rates_text(run.scheme_names, run.target_totals);
   return out;
 }
@@ -81,12 +82,12 @@ std::string targets_text(const RunRecord& run) {
 
 std::string summary_table(const RunRecord& run, const std::string& title) {
   const RunCounts& counts = run.counts;
-  std::string out = fmt::format("{}: {} frames seen, {} captured{}{}", title, counts.seen, counts.captured,
+  std::string out = fmt::format("{}: {} seen, {} captured{}{}", title, counted(counts.seen, "frame"), counts.captured,
                                 shape_text(run.frames), shortfall_text(counts));
   if (run.measured_frames == 0) {
     if (counts.captured > 0)
       out +=
-          "  no rates: frame 0 of a surface is warm-up and stays out of every sum; it takes a second frame\n";
+          "  no rates: frame 0 of a surface is warm-up and no sum counts it; rates need a second frame\n";
     return out + targets_text(run);
   }
   out += rates_text(run.scheme_names, run.totals) + targets_text(run);
@@ -98,7 +99,7 @@ std::string summary_table(const RunRecord& run, const std::string& title) {
     }
   if (checked > 0)
     out +=
-        fmt::format("  verified: {} blocks encoded, decoded and compared, {} differ\n", checked, mismatched);
+        fmt::format("  verified: {} encoded, decoded and compared, {} differ\n", counted(checked, "block"), mismatched);
   return out;
 }
 

@@ -1,4 +1,4 @@
-// Summary table: what a run came to, for people.
+// Summary table: the results of a run as text.
 #pragma once
 
 #include <string>
@@ -7,8 +7,7 @@
 
 namespace tilepress {
 
-/// A few lines, each ending in a newline: counts, a row per scheme, and the frames that could not be taken
-/// and why.
+/// A few lines, each with a newline: counts of frames, also of those without rows, and a row per scheme.
 std::string summary_table(const RunRecord& run, const std::string& title);
 
 }  // namespace tilepress

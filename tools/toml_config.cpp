@@ -1,4 +1,4 @@
-// TOML configuration: toml++ reads, CLI11 checks.
+// TOML configuration: toml++ reads the file, CLI11 checks the options.
 #include "toml_config.h"
 
 #define TOML_EXCEPTIONS 1
@@ -17,7 +17,7 @@ std::string scalar_text(const toml::node& node, const std::string& key) {
     text << *number;
     return text.str();
   }
-  throw CLI::ConfigError("config: " + key + ": neither text, number, truth value nor a list of them");
+  throw CLI::ConfigError("config: " + key + ": must be text, a number, true, false, or a list of these");
 }
 
 }  // namespace

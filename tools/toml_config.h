@@ -1,4 +1,4 @@
-// TOML configuration: lets CLI11 take options from a TOML file.
+// TOML configuration: reads options for CLI11 from a TOML file.
 #pragma once
 
 #include <CLI/CLI.hpp>

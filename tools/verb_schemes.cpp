@@ -1,4 +1,4 @@
-// tilepress schemes: the registry for people, or as JSON.
+// tilepress schemes: prints the registry as text or as JSON.
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -42,15 +42,15 @@ void print_text() {
       if (printed.insert(key.name).second)
         std::printf("  %-9s %-23s %-8s %s\n", key.name, key.values, key.standard, key.summary);
   std::printf(
-      "\nA scheme is asked for as name:key=value,key=value, for example -s vdcp:fvc=128,policy=2lfc\n");
+      "\nWrite a scheme as name:key=value,key=value, for example -s vdcp:fvc=128,policy=2lfc\n");
 }
 
 }  // namespace
 
 int verb_schemes(int argc, char** argv) {
-  CLI::App app("Lists the schemes, where each comes from, and the keys it takes.");
+  CLI::App app("Lists the schemes, their sources and their keys.");
   bool json = false;
-  app.add_flag("--json", json, "As JSON");
+  app.add_flag("--json", json, "Print JSON");
   if (auto status = parse_command_line(app, argc, argv)) return *status;
   json ? print_json() : print_text();
   return kExitDone;

@@ -1,4 +1,4 @@
-// Frame batch: runs the wanted frames of a sequence through the model, on several threads if asked.
+// Frame batch: runs the wanted frames of a sequence through the model, on one or several threads.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// tilepress cost: what the DCP structures cost and what a rate saves.
+// tilepress cost: the cost of the DCP structures, and the energy that a rate saves.
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -16,7 +16,7 @@ constexpr const char* kExamples =
     "  tilepress cost --size 1920x1080 --rate 5.26 --rate 1.75\n"
     "  tilepress cost --fvc 128 --surfaces 4 --size 3840x2160 --refresh 120 --json\n"
     "\n"
-    "Figures are the paper's: CACTI 7.0 at 22 nm for 64 entries, LPDDR3 by DRAMPower 4.0.\n";
+    "The constants are the paper's: CACTI 7.0 at 22 nm for 64 entries, DRAMPower 4.0 for LPDDR3.\n";
 
 struct CostOptions {
   uint32_t entries = 64;
@@ -87,21 +87,21 @@ void print_text(const CostOptions& options) {
   print_bandwidth("CCD", check.ccd_needed, constants.ccd.mpixels_per_s);
   print_bandwidth("rCCD", check.rccd_needed, constants.rccd.mpixels_per_s);
   const double raw = load.raw_bytes_per_s();
-  std::printf("energy, %g pJ a byte moved, %g pJ a raw byte in the structures, %g passes a refresh\n",
+  std::printf("energy, %g pJ per byte moved, %g pJ per raw byte in the structures, %g passes per frame\n",
               constants.dram_pj_per_byte, constants.structures_pj_per_byte, load.passes);
   std::printf("  raw          %9.2f MB/s %9.2f mW\n", raw / 1e6, dram_power_mw(raw, constants));
   for (const double rate : options.rates)
     std::printf("  rate %7.4g %9.2f MB/s %9.2f mW, saves %.1f %%\n", rate, raw / rate / 1e6,
                 compressed_power_mw(raw, rate, constants), 100 * energy_saving(rate, constants));
   std::printf(
-      "The paper prints 199.6 mW of dynamic power, and 629.4 mW with 429.8 mW of static power. 199.6 mW is\n"
-      "its own display: 720x1280 RGBA8 written and read 60 times a second, 442.37 MB/s x 451.2 pJ/B.\n");
+      "The paper prints 199.6 mW of dynamic power, and 629.4 mW including 429.8 mW of static power. 199.6 mW\n"
+      "is the dynamic power of its own display: 720x1280 RGBA8 written and read 60 times a second, 442.37 MB/s x 451.2 pJ/B.\n");
 }
 
 }  // namespace
 
 int verb_cost(int argc, char** argv) {
-  CLI::App app("Tells storage, area and speed of the DCP structures, and the energy that a rate saves.");
+  CLI::App app("Prints storage, area and speed of the DCP structures, and the energy that a rate saves.");
   app.footer(kExamples);
   CostOptions options;
   const auto powers = [](const std::string& text) {
@@ -112,22 +112,22 @@ int verb_cost(int argc, char** argv) {
   app.add_option("--fvc", options.entries, "Entries of FVC, CCD and rCCD (default: 64)")
       ->type_name("N")
       ->check(powers);
-  app.add_option("--surfaces", options.surfaces, "Surfaces read at once, an rCCD each (default: 16)")
+  app.add_option("--surfaces", options.surfaces, "Surfaces read at once, each with an rCCD (default: 16)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  app.add_option("--sample", options.sample, "Every n-th pixel enters the FVC (default: 1)")
+  app.add_option("--sample", options.sample, "Only every N-th pixel enters the FVC (default: 1)")
       ->type_name("N")
       ->check(CLI::Range(1, 0x7FFFFFFF));
   std::optional<FrameSize> size;
   add_size_option(app, "size", size, "Size of the surface (default: 1920x1080)");
-  app.add_option("--pixel-bits", options.load.pixel_bits, "16 or 32 (default: 32)")
+  app.add_option("--pixel-bits", options.load.pixel_bits, "Bits of a pixel, 16 or 32 (default: 32)")
       ->type_name("BITS")
       ->check(CLI::IsMember({16, 32}));
-  app.add_option("--refresh", options.load.refresh_hz, "Frames a second (default: 60)")
+  app.add_option("--refresh", options.load.refresh_hz, "Frames per second (default: 60)")
       ->type_name("HZ")
       ->check(CLI::Range(0.001, 1e6));
   app.add_option("--passes", options.load.passes,
-                 "Times a pixel moves a refresh (default: 2, the GPU writes and the display reads)")
+                 "How often each pixel moves per frame (default: 2: the GPU writes it, the display reads it)")
       ->type_name("N")
       ->check(CLI::Range(0.001, 1e6));
   app.add_option("--rate", options.rates, "Compression rate, raw / moved; repeat for more")
@@ -136,14 +136,14 @@ int verb_cost(int argc, char** argv) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false)
       ->check(CLI::Range(1e-6, 1e9));
-  app.add_option("--dram-pj", options.constants.dram_pj_per_byte, "DRAM energy of a byte (default: 451.2 pJ)")
+  app.add_option("--dram-pj", options.constants.dram_pj_per_byte, "DRAM energy per byte moved, in pJ (default: 451.2)")
       ->type_name("PJ")
       ->check(CLI::Range(1e-6, 1e9));
   app.add_option("--structures-pj", options.constants.structures_pj_per_byte,
-                 "Energy of the structures for a raw byte (default: 4.83 pJ)")
+                 "Energy of the structures per raw byte, in pJ (default: 4.83)")
       ->type_name("PJ")
       ->check(CLI::Range(0.0, 1e9));
-  app.add_flag("--json", options.json, "As JSON");
+  app.add_flag("--json", options.json, "Print JSON");
   if (auto status = parse_command_line(app, argc, argv)) return *status;
   if (size) {
     options.load.width = size->width;
