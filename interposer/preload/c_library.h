@@ -1,6 +1,6 @@
 // C library: its functions that the shim calls, found in its symbol table. The shim does not call them by
-// name: a sanitizer, a shell or the program may define functions of these names, and a sanitizer's are not
-// ready for calls while it looks symbols up.
+// name, because a sanitizer, a shell or the program may define functions of these names. A sanitizer's
+// functions are not ready for calls while it looks symbols up.
 #pragma once
 
 #include <stdbool.h>

@@ -6,9 +6,8 @@
 // Returns NULL if no library defines the name. The library stays loaded. Looks the name up each time.
 void* tp_definition_after_ours(const char* name, void* caller, void* known);
 
-// Returns `found` for every caller but one: if the code at `caller` belongs to the library of `found`, that
-// library implements its function by calling the same name in a library beneath, which is returned (NULL if
-// none defines it).
+// Returns `found`, unless the code at `caller` belongs to the library of `found`. That library implements its
+// function by calling the same name in a library beneath. Then returns the definition beneath, or NULL.
 void* tp_beneath_caller(const char* name, void* found, void* caller);
 
 // Keeps the library of `function` loaded, also after the program closes it. `function` may be called later.

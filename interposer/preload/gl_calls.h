@@ -1,5 +1,5 @@
-// GL calls: those that end a frame without presenting it (--trigger), and those by which a program draws to
-// its own framebuffers and turns away from them (--targets). The stubs of gl_stubs_*.S report them here.
+// GL calls: some end a frame without presenting it (--trigger). By others a program draws to its own
+// framebuffers and turns away from them (--targets). The stubs of gl_stubs_*.S report both here.
 #pragma once
 
 #include <stdbool.h>
