@@ -1,4 +1,4 @@
-// Engine contract: what the preloaded library and the engine it loads know of each other. C, no dependency.
+// Engine contract: the calls and data that the preloaded library and its engine share. C, no dependency.
 #pragma once
 
 #include <stdbool.h>
@@ -9,11 +9,23 @@
 extern "C" {
 #endif
 
-enum { TILEPRESS_ENGINE_VERSION = 8 };
+enum { TILEPRESS_ENGINE_VERSION = 9 };
 
 enum TilepressApi { TILEPRESS_EGL, TILEPRESS_GLX, TILEPRESS_OSMESA, TILEPRESS_API_COUNT };
 
-// A presenting call, before it is forwarded. The first part is filled by the hook.
+// How a call reached the hooks: through the preloaded library, or through a vendor library of libglvnd.
+enum TilepressRoad { TILEPRESS_ROAD_PRELOAD, TILEPRESS_ROAD_GLVND, TILEPRESS_ROAD_COUNT };
+
+// What `begin` notes for `end`. Only the engine reads it. The hook passes zeros to `begin`.
+struct TilepressTicket {
+  uint32_t outcome;   // what became of the frame; 0 = the engine does not count the call
+  uint32_t window;    // number of the window, or ~0
+  void* frame;        // the pixels; NULL unless the frame was taken
+  uint64_t begin_ns;  // when the call came in
+  uint64_t hook_ns;   // how long `begin` took
+};
+
+// A presenting call, before it is forwarded. The hook fills everything but the ticket.
 struct TilepressPresent {
   uint32_t api;                // enum TilepressApi
   void* real;                  // the function the call is forwarded to
@@ -24,14 +36,14 @@ struct TilepressPresent {
   // x, y, width, height of each damage rectangle, origin at the bottom left; NULL = the whole surface
   const int32_t* damage;
   int32_t damage_count;
-  const char* via;                     // road of the call, as in run.json
+  uint32_t road;                       // enum TilepressRoad
   void* (*look_up)(const char* name);  // the driver's functions where no public library answers; NULL else
-  void* ticket[6];                     // the engine's own, from begin to end
+  struct TilepressTicket ticket;
 };
 
-// What a watched GL call means. The first is a mark alone: no call of the engine.
+// What a watched GL call means.
 enum TilepressGlKind {
-  TILEPRESS_GL_DRAW,
+  TILEPRESS_GL_DRAW,  // sets the thread's mark and does not call the engine
   TILEPRESS_GL_CLEAR,
   TILEPRESS_GL_CLEAR_BUFFER,
   TILEPRESS_GL_BIND_FRAMEBUFFER,
@@ -57,28 +69,29 @@ struct TilepressGlCall {
   uint32_t by_default;         // a trigger that was not asked for: the context is OSMesa's
   uint32_t context_destroyed;  // as in TilepressPresent
   void* osmesa;                // a function of OSMesa's library, if one of its contexts was made current here
-  const uintptr_t*
-      arguments;    // the first integer and pointer arguments, in registers: upper halves are noise
-  const char* via;  // as in TilepressPresent, as is look_up
-  void* (*look_up[TILEPRESS_API_COUNT])(const char* name);
+  uint32_t road;               // enum TilepressRoad
+  // The first integer and pointer arguments, as registers hold them: upper halves are noise.
+  const uintptr_t* arguments;
+  void* (*look_up[TILEPRESS_API_COUNT])(const char* name);  // as in TilepressPresent
 };
 
 struct TilepressEngine {
   uint32_t version;
-  // Takes the frame that `present` is about to present. Returns 0 if end must not be called. Leaves the
-  // thread's context, its GL and EGL state and errno as they are. Never fails visibly.
+  // Captures the frame that `present` is about to present. Returns 0 if `end` must not be called. Leaves the
+  // thread's context, its GL and EGL state and errno as they are. No failure reaches the program.
   int (*begin)(struct TilepressPresent* present);
   // The presenting call has returned; `presented` = it succeeded. Calls neither GL nor EGL.
   void (*end)(struct TilepressPresent* present, int presented);
-  // The program is about to call a watched GL function. Leaves everything as begin does.
+  // The program is about to call a watched GL function. Leaves the thread as `begin` does.
   void (*gl_call)(const struct TilepressGlCall* call);
   // Where the calling thread marks that it has drawn.
   uint8_t* (*drawn_mark)(void);
-  // The program is about to destroy `context` of `display`, or all of them (NULL): ours on it go first.
+  // The program is about to destroy `context` of `display`, or the whole display (NULL). The engine first
+  // destroys its own contexts on that display.
   void (*contexts_going)(uint32_t api, void* display, void* context);
-  // The program is about to destroy an EGL surface: one that is made later with the same handle is another.
+  // The program is about to destroy an EGL surface. A later surface may get the same handle.
   void (*surface_going)(void* display, uintptr_t surface);
-  // The process is about to end: every frame taken is written out. May be called more than once.
+  // The process is about to end. Writes out every frame taken. May be called more than once.
   void (*finish)(void);
 };
 
@@ -86,11 +99,12 @@ struct TilepressEngine {
 struct TilepressHost {
   uint32_t version;
   void* (*dlsym)(void* handle, const char* name);  // the real one
-  // Copies the path of the library that holds `address`. False if it is the program itself or does not fit.
+  // Copies the path of the library that holds `address`. Returns false for the program itself, and if `size`
+  // is too small.
   bool (*path_of_object)(const void* address, char* path, size_t size);
 };
 
-// The one symbol the engine exports. NULL if the versions do not fit.
+// The only symbol that the engine exports. Returns NULL if the versions differ.
 typedef const struct TilepressEngine* (*TilepressEngineEntry)(const struct TilepressHost* host);
 const struct TilepressEngine* tilepress_engine(const struct TilepressHost* host);
 

@@ -74,7 +74,7 @@ CaptureWorker* Capture::worker(const TilepressPresent& present, const PresentSou
   info.command = command_line();
   info.program = program_name();
   info.pid = pid_;
-  info.via = present.via;
+  info.via = present.road == TILEPRESS_ROAD_GLVND ? "glvnd" : "preload";
   const GlStrings strings = source.strings();
   info.gl_vendor = strings.vendor;
   info.gl_renderer = strings.renderer;
@@ -174,17 +174,16 @@ bool Capture::is_capturing() const {
 bool Capture::begin(TilepressPresent& present) {
   const uint64_t begin_ns = now_ns();
   const bool taken = !counting_only_ && begin_capture(present, begin_ns);
-  present.ticket[3] = reinterpret_cast<void*>(uintptr_t{begin_ns});
-  present.ticket[4] = reinterpret_cast<void*>(uintptr_t{now_ns() - begin_ns});
+  present.ticket.begin_ns = begin_ns;
+  present.ticket.hook_ns = now_ns() - begin_ns;
   return taken || times_.on();
 }
 
 void Capture::end(TilepressPresent& present, bool presented) {
   const uint64_t end_ns = now_ns();
-  if (present.ticket[0] != nullptr) end_capture(present, presented);
+  if (present.ticket.outcome != 0) end_capture(present, presented);
   if (!times_.on() || !presented) return;
-  const auto begin_ns = reinterpret_cast<uintptr_t>(present.ticket[3]);
-  times_.note(present.surface, begin_ns, reinterpret_cast<uintptr_t>(present.ticket[4]) + now_ns() - end_ns);
+  times_.note(present.surface, present.ticket.begin_ns, present.ticket.hook_ns + now_ns() - end_ns);
 }
 
 bool Capture::begin_capture(TilepressPresent& present, uint64_t begin_ns) {
@@ -216,20 +215,20 @@ bool Capture::begin_capture(TilepressPresent& present, uint64_t begin_ns) {
     taken = take(shot, *made);
   }
   worker(present, *source);
-  counts_.roads |= strcmp(present.via, "glvnd") == 0 ? kRoadGlvnd : kRoadPreload;
+  counts_.roads |= 1u << present.road;
   if (!enabled_) return false;
-  present.ticket[0] = reinterpret_cast<void*>(taken.outcome);
-  present.ticket[1] = reinterpret_cast<void*>(uintptr_t{taken.window});
-  present.ticket[2] = taken.frame;
+  present.ticket.outcome = static_cast<uint32_t>(taken.outcome);
+  present.ticket.window = taken.window;
+  present.ticket.frame = taken.frame;
   return true;
 }
 
 void Capture::end_capture(TilepressPresent& present, bool presented) {
   Take taken;
-  taken.outcome = static_cast<Outcome>(reinterpret_cast<uintptr_t>(present.ticket[0]));
-  taken.window = static_cast<uint32_t>(reinterpret_cast<uintptr_t>(present.ticket[1]));
-  taken.frame = static_cast<CapturedFrame*>(present.ticket[2]);
-  taken.begin_ns = reinterpret_cast<uintptr_t>(present.ticket[3]);
+  taken.outcome = static_cast<Outcome>(present.ticket.outcome);
+  taken.window = present.ticket.window;
+  taken.frame = static_cast<CapturedFrame*>(present.ticket.frame);
+  taken.begin_ns = present.ticket.begin_ns;
   if (presented)
     commit(taken);
   else if (taken.frame != nullptr)

@@ -36,7 +36,7 @@ class Capture {
   void finish();
 
  private:
-  enum class Outcome : uintptr_t { kTaken = 1, kSkipped, kDropped, kUnsupported, kNotCaptured };
+  enum class Outcome : uint32_t { kTaken = 1, kSkipped, kDropped, kUnsupported, kNotCaptured };
   struct Source {
     void* real;
     uint32_t api;

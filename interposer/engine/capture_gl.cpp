@@ -94,8 +94,8 @@ bool read_beside(PresentSource& source, const TilepressPresent& present, const A
 bool comes_again(const TilepressGlCall& call) {
   thread_local uint32_t awaited = TILEPRESS_GL_KINDS;
   if (call.osmesa != nullptr) return false;
-  const bool again = strcmp(call.via, "glvnd") == 0 && awaited == call.kind;
-  awaited = strcmp(call.via, "glvnd") == 0 ? uint32_t{TILEPRESS_GL_KINDS} : call.kind;
+  const bool again = call.road == TILEPRESS_ROAD_GLVND && awaited == call.kind;
+  awaited = call.road == TILEPRESS_ROAD_GLVND ? uint32_t{TILEPRESS_GL_KINDS} : call.kind;
   return again;
 }
 
@@ -117,7 +117,7 @@ void* Capture::public_function(uint32_t api) {
 
 PresentSource* Capture::source_of(const TilepressGlCall& call, TilepressPresent& present) {
   present = {};
-  present.via = call.via;
+  present.road = call.road;
   present.context_destroyed = call.context_destroyed;
   const FramebufferUse use = use_of(call.kind);
   const auto is_current = [&](uint32_t api, void* real) -> PresentSource* {
@@ -212,7 +212,7 @@ void Capture::take_attachments(const TilepressPresent& present, PresentSource& s
                                SurfaceRole role, const char* cause) {
   if (attachments.empty()) return;
   CaptureWorker* made = worker(present, source);
-  counts_.roads |= strcmp(present.via, "glvnd") == 0 ? kRoadGlvnd : kRoadPreload;
+  counts_.roads |= 1u << present.road;
   if (!enabled_) return;
   const GlFunctions& gl = source.gl();
   const uint64_t begin_ns = now_ns();

@@ -9,7 +9,7 @@
 #include "engine_loader.h"
 #include "session_file.h"
 
-static const char* via = "preload";
+static uint32_t road = TILEPRESS_ROAD_PRELOAD;
 static void* (*driver_lookup[TILEPRESS_API_COUNT])(const char* name);
 
 // 1 inside a presenting call of this thread: a driver or another shim may present through a hooked function.
@@ -54,7 +54,7 @@ static void restore_thread(struct thread_state state) {
 }
 
 void tp_come_through_glvnd(enum TilepressApi api, void* (*look_up)(const char* name)) {
-  via = "glvnd";
+  road = TILEPRESS_ROAD_GLVND;
   driver_lookup[api] = look_up;
 }
 
@@ -62,7 +62,7 @@ bool tp_presenting(struct TilepressPresent* present) {
   if (depth > 0 || present->real == NULL || tp_c_library() == NULL) return false;
   const struct thread_state state = save_thread();
   depth = 1;
-  present->via = via;
+  present->road = road;
   present->look_up = driver_lookup[present->api];
   // libglvnd looks up every name at once, used or not. So the call is noted, not the lookup.
   if (present->look_up != NULL)
@@ -86,7 +86,7 @@ void tp_gl_called(struct TilepressGlCall* call) {
   if (depth > 0 || tp_c_library() == NULL) return;
   const struct thread_state state = save_thread();
   depth = 1;
-  call->via = via;
+  call->road = road;
   call->context_destroyed = tp_current_context_is_destroyed();
   for (int api = 0; api < TILEPRESS_API_COUNT; ++api) call->look_up[api] = driver_lookup[api];
   const struct TilepressEngine* engine = tp_engine();

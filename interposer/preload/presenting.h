@@ -17,7 +17,7 @@ bool tp_presenting(struct TilepressPresent* present);
 // Call after the real call. `success`: the frame was presented.
 void tp_presented(struct TilepressPresent* present, bool success);
 
-// Call before a watched GL call. Fills in the context_destroyed, via and look_up of `call`.
+// Call before a watched GL call. Fills in the context_destroyed, road and look_up of `call`.
 void tp_gl_called(struct TilepressGlCall* call);
 // Returns where this thread's draw calls leave their mark; NULL where nothing is captured.
 uint8_t* tp_gl_drawn_mark(void);

@@ -269,7 +269,8 @@ Result<void> CaptureWorker::append_surface(const CapturedFrame& frame) {
 
 void CaptureWorker::publish_counts() {
   writer_.set_counts(counts_.presented.now(), counts_.targets.now());
-  if (counts_.roads == (kRoadPreload | kRoadGlvnd) && info_.via != "preload+glvnd") {
+  constexpr uint32_t kEveryRoad = (1u << TILEPRESS_ROAD_COUNT) - 1;
+  if (counts_.roads == kEveryRoad && info_.via != "preload+glvnd") {
     info_.via = "preload+glvnd";
     writer_.set_info(info_);
   }

@@ -12,6 +12,7 @@
 #include "interposer/engine/worker/surviving_task.h"
 #include "interposer/engine/worker/worker_pace.h"
 #include "interposer/engine/worker/yielding_thread.h"
+#include "interposer/engine_contract.h"
 #include "interposer/run/append_file.h"
 #include "tilepress/frame_pictures.h"
 #include "tilepress/live_page.h"
@@ -20,9 +21,6 @@
 #include "tilepress/surface_engine.h"
 
 namespace tilepress {
-
-/// Roads by which presents have come; both may be in use at once.
-constexpr uint32_t kRoadPreload = 1, kRoadGlvnd = 2;
 
 /// Counts of the process, raised by the presenting threads (and `captured` by the worker).
 class RoleCounts {
@@ -43,7 +41,7 @@ class RoleCounts {
 };
 struct CaptureCounts {
   RoleCounts presented, targets;
-  std::atomic<uint32_t> roads{0};
+  std::atomic<uint32_t> roads{0};  ///< a bit for each enum TilepressRoad by which frames have come
   RoleCounts& of(SurfaceRole role) { return role == SurfaceRole::kTarget ? targets : presented; }
 };
 
