@@ -1,38 +1,53 @@
-// Shim log: the file is opened for each line, because the program may close any descriptor it did not open.
+// Shim log: opens the file for each line, because the program may close any descriptor that it did not open.
 #include "interposer/engine/shim_log.h"
 
 #include <fcntl.h>
+#include <spdlog/sinks/sink.h>
 #include <unistd.h>
-
-#include <utility>
 
 #include "interposer/run/descriptors.h"
 
 namespace tilepress {
 namespace {
 
-int threshold_of(std::string_view level) {
-  if (level == "off") return -1;
-  if (level == "error") return static_cast<int>(LogLevel::kError);
-  if (level == "info") return static_cast<int>(LogLevel::kInfo);
-  if (level == "debug" || level == "trace") return static_cast<int>(LogLevel::kDebug);
-  return static_cast<int>(LogLevel::kWarn);
+/// One write() per line. Uses no formatter: those of spdlog ask for the local time, which takes a lock that a
+/// thread may hold at a fork.
+class AppendingSink final : public spdlog::sinks::sink {
+ public:
+  explicit AppendingSink(std::string path) : path_(std::move(path)) {}
+
+  void log(const spdlog::details::log_msg& message) override {
+    // O_CREAT comes second: in a folder like /tmp it may fail for a file that another user has made.
+    int file = open_above_streams(path_, O_WRONLY | O_APPEND);
+    if (file < 0) file = open_above_streams(path_, O_WRONLY | O_APPEND | O_CREAT);
+    if (file < 0) return;
+    const std::string line = "tilepress: " + std::string(message.payload.data(), message.payload.size()) + "\n";
+    [[maybe_unused]] const ssize_t written = write(file, line.data(), line.size());
+    close(file);
+  }
+  void flush() override {}
+  void set_pattern(const std::string&) override {}
+  void set_formatter(std::unique_ptr<spdlog::formatter>) override {}
+
+ private:
+  const std::string path_;
+};
+
+spdlog::level::level_enum level_of(std::string_view name) {
+  if (name == "off") return spdlog::level::off;
+  if (name == "error") return spdlog::level::err;
+  if (name == "info") return spdlog::level::info;
+  if (name == "debug" || name == "trace") return spdlog::level::debug;
+  return spdlog::level::warn;
 }
 
 }  // namespace
 
-ShimLog::ShimLog(std::string path, std::string_view level)
-    : path_(std::move(path)), threshold_(threshold_of(level)) {}
-
-void ShimLog::write(LogLevel level, std::string_view text) const {
-  if (path_.empty() || static_cast<int>(level) > threshold_) return;
-  // Creating comes second: in a folder like /tmp, O_CREAT may fail on a file that another user has made.
-  int file = open_above_streams(path_, O_WRONLY | O_APPEND);
-  if (file < 0) file = open_above_streams(path_, O_WRONLY | O_APPEND | O_CREAT);
-  if (file < 0) return;
-  const std::string line = "tilepress: " + std::string(text) + "\n";
-  [[maybe_unused]] const ssize_t written = ::write(file, line.data(), line.size());
-  close(file);
+std::unique_ptr<ShimLog> make_shim_log(const std::string& path, std::string_view level) {
+  auto log = std::make_unique<ShimLog>("tilepress", std::make_shared<AppendingSink>(path));
+  log->set_level(path.empty() ? spdlog::level::off : level_of(level));
+  log->set_error_handler([](const std::string&) {});  // the default one writes to standard error
+  return log;
 }
 
 }  // namespace tilepress

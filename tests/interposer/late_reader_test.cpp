@@ -134,9 +134,8 @@ class LateReading : public ::testing::Test {
   bool read(CapturedFrame& frame, ReadWay way) {
     frame.way = way;
     frame.arrive = [this, &frame](bool whole) { queue_.arrived(&frame, whole); };
-    GLenum error = 0;
     const SurfaceShape shape{kSide, kSide, PixelFormat::kRgba8};
-    const bool taken = read_back_buffer(gl_, shape, buffers(way), frame, error);
+    const bool taken = read_back_buffer(gl_, shape, buffers(way), frame);
     if (frame.late != nullptr) reader_.post(frame);
     return taken;
   }

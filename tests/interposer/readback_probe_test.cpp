@@ -1,4 +1,5 @@
 // Readback probe: what it decides, on costs that are made up.
+#include "interposer/engine/read_policy.h"
 #include "interposer/engine/readback/readback_probe.h"
 
 #include <gtest/gtest.h>
@@ -86,20 +87,21 @@ CapturedFrame& frame_that_cost(CapturedFrame& frame, ReadWay way) {
   return frame;
 }
 
-/// Presents `frames` frames of a window; how often the choice was told, and the last way.
-std::pair<int, ReadWay> present(ReadbackChoices& choices, uint32_t window, uint64_t pixels, int frames) {
+/// Presents `frames` frames of a window. Returns how many lines the policy had for the log, and the last way.
+std::pair<int, ReadWay> present(ReadPolicy& policy, uint32_t window, uint64_t pixels, int frames) {
+  const ReadCase read{window, pixels, true, false, false};
   CapturedFrame frame;
   int told = 0;
   ReadWay way = ReadWay::kSync;
   for (int i = 0; i < frames; ++i) {
-    way = choices.way(window, pixels);
-    if (!choices.note(window, frame_that_cost(frame, way)).empty()) ++told;
+    way = policy.way(read);
+    if (!policy.note(read, frame_that_cost(frame, way)).empty()) ++told;
   }
   return {told, way};
 }
 
-TEST(ReadbackChoices, AreMadeForEachWindowAndAgainWhereItsSizeIsAnother) {
-  ReadbackChoices choices(Readback::kAuto);
+TEST(ReadPolicy, ChoosesForEachWindowAndAgainWhereItsSizeIsAnother) {
+  ReadPolicy choices(Readback::kAuto);
   EXPECT_EQ(present(choices, 1, 1000, 40), std::make_pair(1, ReadWay::kAsync));
   EXPECT_EQ(present(choices, 2, 1000, 5), std::make_pair(0, ReadWay::kSync));  // not decided yet
   EXPECT_EQ(present(choices, 1, 2000, 5), std::make_pair(0, ReadWay::kAsync));
@@ -109,11 +111,34 @@ TEST(ReadbackChoices, AreMadeForEachWindowAndAgainWhereItsSizeIsAnother) {
   EXPECT_EQ(present(choices, 1, 2001, 5), std::make_pair(0, ReadWay::kSync));
 }
 
-TEST(ReadbackChoices, AreTheUsersWhereThereIsAWish) {
-  ReadbackChoices sync(Readback::kSync), async(Readback::kAsync), in_context(Readback::kInContext);
+TEST(ReadPolicy, FollowsTheUserWhereThereIsAWish) {
+  ReadPolicy sync(Readback::kSync), async(Readback::kAsync), in_context(Readback::kInContext);
   EXPECT_EQ(present(sync, 1, 1000, 40), std::make_pair(0, ReadWay::kSync));
   EXPECT_EQ(present(async, 1, 1000, 1), std::make_pair(0, ReadWay::kAsync));
   EXPECT_EQ(present(in_context, 1, 1000, 40), std::make_pair(0, ReadWay::kSync));
+}
+
+TEST(ReadPolicy, ReadsASoftwareWindowInPlaceUnlessItsPixelsAreAskedForLate) {
+  ReadPolicy automatic(Readback::kAuto), sync(Readback::kSync), async(Readback::kAsync);
+  const ReadCase known{1, 1000, true, true, false}, first{1, 1000, true, true, true},
+      trigger{1, 1000, false, true, false};
+  EXPECT_EQ(automatic.way(known), ReadWay::kInContext);
+  EXPECT_EQ(sync.way(known), ReadWay::kInContext);
+  EXPECT_EQ(async.way(known), ReadWay::kAsync);
+  EXPECT_EQ(async.way(first), ReadWay::kInContext);    // the window may just be resized
+  EXPECT_EQ(async.way(trigger), ReadWay::kInContext);  // a trigger needs the pixels in the call
+}
+
+TEST(ReadPolicy, HasNothingToProbeWhereAFrameIsReadInPlaceOrMayNotBeLate) {
+  ReadPolicy policy(Readback::kAuto);
+  CapturedFrame frame;
+  for (const ReadCase& read : {ReadCase{1, 1000, true, true, false}, ReadCase{1, 1000, false, false, false}})
+    for (int i = 0; i < 40; ++i) {
+      const ReadWay way = policy.way(read);
+      EXPECT_EQ(way, read.software_window ? ReadWay::kInContext : ReadWay::kSync);
+      EXPECT_EQ(policy.note(read, frame_that_cost(frame, way)), "");
+    }
+  EXPECT_EQ(present(policy, 1, 1000, 40), std::make_pair(1, ReadWay::kAsync));
 }
 
 }  // namespace

@@ -167,7 +167,7 @@ ShimRun ShimTest::run(const std::vector<std::string>& command,
   environment.try_emplace("TILEPRESS_SESSION", session.string());
   environment.try_emplace("TILEPRESS_LOG_FILE", (folder_.path() / "log").string());
   environment.try_emplace("TILEPRESS_SCHEME", "vdcp red");
-  environment.try_emplace("TILEPRESS_DUMP", (folder_.path() / "dump").string());
+  environment.try_emplace("TILEPRESS_DUMP_FRAMES", "every:1");
   ShimRun result;
   result.process = run_process(command, environment);
   if (fs::exists(output))
@@ -189,14 +189,23 @@ ShimRun ShimTest::run(const std::vector<std::string>& command,
 }
 
 std::vector<uint8_t> ShimTest::dump(uint32_t surface, uint64_t frame) const {
-  const std::string name = std::to_string(surface) + "-" + std::to_string(frame) + ".rgba";
-  const std::string bytes = read_file(folder_.path() / "dump" / name);
+  std::string number = std::to_string(frame);
+  number.insert(0, 6 - std::min<size_t>(6, number.size()), '0');
+  const std::string name = std::to_string(surface) + "-" + number + ".rgba";
+  fs::path newest;
+  std::error_code no_run;
+  for (const auto& run : fs::directory_iterator(folder_.path() / "out", no_run)) {
+    const fs::path path = run.path() / "frames" / name;
+    if (fs::exists(path) && (newest.empty() || fs::last_write_time(path) >= fs::last_write_time(newest)))
+      newest = path;
+  }
+  const std::string bytes = newest.empty() ? "" : read_file(newest);
   return {bytes.begin(), bytes.end()};
 }
 
 ShimRun soak_windows(const char* api, std::map<std::string, std::string> environment) {
   environment.insert({{"TILEPRESS_SCHEME", "vdcp"},
-                      {"TILEPRESS_DUMP", ""},
+                      {"TILEPRESS_DUMP_FRAMES", ""},
                       {"LP_NUM_THREADS", "0"},
                       {"DISPLAY", own_display()}});
   ShimTest test;

@@ -46,7 +46,7 @@ struct CapturedRun {
   int64_t json_number(const std::string& key) const;
 };
 
-/// Runs programs under the shim with the quick schemes and dumped frames.
+/// A program under the shim: every scheme that is quick, and the pixels of every frame.
 struct ShimRun {
   ProcessResult process;
   std::vector<CapturedRun> runs;  ///< by name
@@ -61,7 +61,7 @@ class ShimTest {
  public:
   explicit ShimTest(Road road = Road::kPreload) : road_(road) {}
   ShimRun run(const std::vector<std::string>& command, std::map<std::string, std::string> environment = {});
-  /// Returns the bytes of a dumped frame, or nothing if there is none.
+  /// The bytes of a frame in the newest run that has it; empty if no run has it.
   std::vector<uint8_t> dump(uint32_t surface, uint64_t frame) const;
 
  private:

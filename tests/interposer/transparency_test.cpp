@@ -97,7 +97,7 @@ TEST(Transparency, ClosedStandardStreamsAreNotTakenForTheShimsFiles) {
 // The rows of 40 frames exceed the file limit of one kilobyte. Exceeding it also sends a signal.
 TEST(Transparency, FilesThatMayNotGrowEndTheRunNotTheProgram) {
   ShimTest test;
-  const ShimRun run = run_in(test, "ulimit -f 2; exec \"$0\" \"$@\"", {{"TILEPRESS_DUMP", ""}});
+  const ShimRun run = run_in(test, "ulimit -f 2; exec \"$0\" \"$@\"", {{"TILEPRESS_DUMP_FRAMES", ""}});
   EXPECT_TRUE(run.process.exited_with(0)) << run.process.status;
   EXPECT_EQ(run.process.out, "error after the last swap: 0x3000\n");
   EXPECT_EQ(run.process.err, "");
@@ -117,7 +117,7 @@ TEST(Transparency, AFullDiskEndsTheRunNotTheProgram) {
        "mkdir -p \"$TILEPRESS_OUT\"; mount -t tmpfs -o size=16k none \"$TILEPRESS_OUT\"; \"$0\" \"$@\"; s=$?;"
        "df --output=avail \"$TILEPRESS_OUT\" | tail -1 >&2; exit $s",
        TILEPRESS_EGL_OPENED, "local", "200", "96", "80"},
-      {{"TILEPRESS_DUMP", ""}});
+      {{"TILEPRESS_DUMP_FRAMES", ""}});
   EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
   EXPECT_EQ(run.process.out, "error after the last swap: 0x3000\n");
   EXPECT_NE(run.log.find("No space left on device"), std::string::npos) << run.log;
@@ -212,7 +212,7 @@ TEST(Transparency, SurfacesAndContextsMadeAgainAndAgainLeakNothing) {
   ShimTest test;
   const ShimRun run =
       test.run({TILEPRESS_EGL_SOAK, "1000"},
-               {{"TILEPRESS_SCHEME", "vdcp"}, {"TILEPRESS_DUMP", ""}, {"LP_NUM_THREADS", "0"}});
+               {{"TILEPRESS_SCHEME", "vdcp"}, {"TILEPRESS_DUMP_FRAMES", ""}, {"LP_NUM_THREADS", "0"}});
   EXPECT_TRUE(run.process.exited_with(0)) << run.process.err;
   long early_kib = 0, late_kib = 0;
   int early_descriptors = 0, late_descriptors = 1;

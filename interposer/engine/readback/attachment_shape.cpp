@@ -1,4 +1,4 @@
-// Attachment shape: by name where OpenGL has that, else by binding.
+// Attachment shape: a query by name where OpenGL has one, else a binding.
 #include "interposer/engine/readback/attachment_shape.h"
 
 #include <GL/gl.h>
@@ -8,9 +8,10 @@ namespace tilepress {
 namespace {
 
 struct TextureTarget {
-  GLenum bind, image;  // `image`: to ask about, of a cube map any face
+  GLenum bind;
+  GLenum image;  // for queries: any face of a cube map
   bool multisampled;
-  bool embedded;  // OpenGL ES knows it
+  bool embedded;  // OpenGL ES has it
 };
 
 constexpr TextureTarget kTargets[] = {
@@ -25,10 +26,15 @@ constexpr TextureTarget kTargets[] = {
     {GL_TEXTURE_1D, GL_TEXTURE_1D, false, false},
 };
 
-bool settle(const Attachment& attachment, GLint width, GLint height, SurfaceShape& shape) {
-  shape = {static_cast<uint32_t>(width), static_cast<uint32_t>(height), format_of(attachment.bits),
-           attachment.srgb};
-  return width > 0 && height > 0;
+Error unknown(const char* text) {
+  return {ErrorKind::kUnsupported, text};
+}
+
+Result<ImageShape> shape_of(const Attachment& attachment, GLint width, GLint height, GLint samples) {
+  if (width < 1 || height < 1) return unknown("GL has no query for the size of the image");
+  return ImageShape{{static_cast<uint32_t>(width), static_cast<uint32_t>(height), format_of(attachment.bits),
+                     attachment.srgb},
+                    samples};
 }
 
 void clear_errors(const GlFunctions& gl) {
@@ -38,15 +44,15 @@ void clear_errors(const GlFunctions& gl) {
 
 }  // namespace
 
-bool shape_in_program_context(const GlFunctions& gl, const Attachment& attachment, SurfaceShape& shape,
-                              GLint& samples) {
+Result<ImageShape> shape_in_program_context(const GlFunctions& gl, const Attachment& attachment) {
   const ContextVersion version = version_of(gl);
-  GLint width = 0, height = 0;
+  GLint width = 0, height = 0, samples = 0;
   if (version.embedded || version.number < 45 || gl.GetTextureLevelParameteriv == nullptr ||
       gl.GetNamedRenderbufferParameteriv == nullptr || gl.IsTexture == nullptr ||
       gl.IsRenderbuffer == nullptr)
-    return false;
-  if (attachment.texture ? !gl.IsTexture(attachment.name) : !gl.IsRenderbuffer(attachment.name)) return false;
+    return unknown("the program's context has no query for the size of its images");
+  if (attachment.texture ? !gl.IsTexture(attachment.name) : !gl.IsRenderbuffer(attachment.name))
+    return unknown("the image is deleted");
   if (attachment.texture) {
     gl.GetTextureLevelParameteriv(attachment.name, attachment.level, GL_TEXTURE_WIDTH, &width);
     gl.GetTextureLevelParameteriv(attachment.name, attachment.level, GL_TEXTURE_HEIGHT, &height);
@@ -56,20 +62,16 @@ bool shape_in_program_context(const GlFunctions& gl, const Attachment& attachmen
     gl.GetNamedRenderbufferParameteriv(attachment.name, GL_RENDERBUFFER_HEIGHT, &height);
     gl.GetNamedRenderbufferParameteriv(attachment.name, GL_RENDERBUFFER_SAMPLES, &samples);
   }
-  return settle(attachment, width, height, shape);
+  return shape_of(attachment, width, height, samples);
 }
 
-bool shape_in_sharing_context(const GlFunctions& gl, const Attachment& attachment, SurfaceShape& shape,
-                              GLint& samples, std::string& reason) {
+Result<ImageShape> shape_in_sharing_context(const GlFunctions& gl, const Attachment& attachment) {
   const ContextVersion version = version_of(gl);
-  GLint width = 0, height = 0;
-  samples = 0;
+  GLint width = 0, height = 0, samples = 0;
   clear_errors(gl);
-  if (attachment.texture ? gl.IsTexture == nullptr || !gl.IsTexture(attachment.name)
-                         : gl.IsRenderbuffer == nullptr || !gl.IsRenderbuffer(attachment.name)) {
-    reason = "the image is deleted";  // binding its name would make another
-    return false;
-  }
+  const bool exists = attachment.texture ? gl.IsTexture != nullptr && gl.IsTexture(attachment.name)
+                                         : gl.IsRenderbuffer != nullptr && gl.IsRenderbuffer(attachment.name);
+  if (!exists) return unknown("the image is deleted");  // to bind its name would make another
   if (!attachment.texture) {
     gl.BindRenderbuffer(GL_RENDERBUFFER, attachment.name);
     gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_WIDTH, &width);
@@ -78,8 +80,7 @@ bool shape_in_sharing_context(const GlFunctions& gl, const Attachment& attachmen
       gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_SAMPLES, &samples);
     gl.BindRenderbuffer(GL_RENDERBUFFER, 0);
   } else if (gl.GetTexLevelParameteriv == nullptr || (version.embedded && version.number < 31)) {
-    reason = "OpenGL ES before 3.1 does not tell the size of a texture";
-    return false;
+    return unknown("OpenGL ES before 3.1 has no query for the size of a texture");
   }
   for (const TextureTarget& target : kTargets) {
     if (!attachment.texture || (version.embedded && !target.embedded)) continue;
@@ -93,8 +94,7 @@ bool shape_in_sharing_context(const GlFunctions& gl, const Attachment& attachmen
     break;
   }
   clear_errors(gl);
-  reason = "the size of the image cannot be asked for";
-  return settle(attachment, width, height, shape);
+  return shape_of(attachment, width, height, samples);
 }
 
 }  // namespace tilepress

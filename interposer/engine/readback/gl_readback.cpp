@@ -36,10 +36,9 @@ std::optional<PixelFormat> format_of(const ChannelBits& bits) {
 }
 
 bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
-                      const std::shared_ptr<PixelBuffers>& buffers, CapturedFrame& frame, GLenum& error) {
+                      const std::shared_ptr<PixelBuffers>& buffers, CapturedFrame& frame) {
   const BackBuffer back_buffer(gl, shape);
-  error = back_buffer.error();
-  if (error != 0) return false;
+  if (!back_buffer.whole()) return false;
   frame.buffered_ns = 0;
   const Transfer transfer = transfer_of(*shape.format, gl);
   const size_t pitch_bytes = size_t{shape.width} * transfer.pixel_bytes;
@@ -66,10 +65,11 @@ bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
   const uint64_t begin_ns = now_ns();
   gl.ReadPixels(0, 0, area.width, area.height, area.format, area.type, pixels);
   frame.read_ns = now_ns() - begin_ns;
-  for (GLenum found = gl.GetError(); found != GL_NO_ERROR; found = gl.GetError()) error = found;
-  // What comes out of the buffer must be what comes out of the call, or none is used.
+  bool failed = false;
+  while (gl.GetError() != GL_NO_ERROR) failed = true;
+  // A pixel buffer that holds other pixels than the call returned is of no use.
   if (late == nullptr || !buffers->equals(*late, pixels)) frame.buffered_ns = 0;
-  return error == 0;
+  return !failed;
 }
 
 }  // namespace tilepress

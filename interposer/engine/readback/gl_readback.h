@@ -22,11 +22,10 @@ struct ChannelBits {
 /// The pixel format whose memory layout holds exactly these channels; empty if there is none.
 std::optional<PixelFormat> format_of(const ChannelBits& bits);
 
-/// Reads the whole back buffer into `frame`, or starts to, in the way that `frame.way` asks for, and sets its
-/// view. Where pixel buffers fail, or `buffers` is null, the way is kSync. The current context is private to
-/// the shim: its state and its error flags are ours. False, with the GL error or 0 in `error`, if nothing was
-/// read.
+/// Reads the whole back buffer into `frame`, or starts to, in the way of `frame.way`, and sets the frame's view.
+/// Changes the way to kSync if pixel buffers fail or `buffers` is null. The current context must be a private
+/// one: its state and its error flags change. Returns false if nothing was read.
 bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
-                      const std::shared_ptr<PixelBuffers>& buffers, CapturedFrame& frame, GLenum& error);
+                      const std::shared_ptr<PixelBuffers>& buffers, CapturedFrame& frame);
 
 }  // namespace tilepress

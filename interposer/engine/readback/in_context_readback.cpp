@@ -2,7 +2,6 @@
 // neither raises an error the program would find.
 #include "interposer/engine/readback/in_context_readback.h"
 
-#include <cstdlib>
 #include <cstring>
 #include <optional>
 
@@ -61,14 +60,6 @@ bool read_neutrally(const GlFunctions& gl, const ContextVersion& version, GLuint
 }
 
 }  // namespace
-
-bool in_program_context_only() {
-  static const bool only = [] {
-    const char* wish = getenv("TILEPRESS_READBACK");
-    return wish != nullptr && strcmp(wish, "in-context") == 0;
-  }();
-  return only;
-}
 
 bool read_in_program_context(const GlFunctions& gl, const SurfaceShape& shape, GLenum buffer,
                              CapturedFrame& frame) {

@@ -8,9 +8,6 @@
 
 namespace tilepress {
 
-/// True if TILEPRESS_READBACK=in-context forbids private contexts.
-bool in_program_context_only();
-
 /// Reads the whole of the default framebuffer's `buffer` (GL_BACK, GL_FRONT) in the current, foreign context
 /// into `frame`. Every state it sets is put back, and no call is made that could raise an error flag. False
 /// if the context cannot be read so (the format needs a question that this context does not know).

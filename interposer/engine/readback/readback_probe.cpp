@@ -78,30 +78,4 @@ std::string ReadbackProbe::text() const {
   return line;
 }
 
-ReadWay ReadbackChoices::way(uint32_t window, uint64_t pixels) {
-  if (wish_ == Readback::kSync || wish_ == Readback::kInContext) return ReadWay::kSync;
-  if (wish_ == Readback::kAsync) return ReadWay::kAsync;
-  const std::lock_guard lock(mutex_);
-  Choice& choice = choices_[window];
-  if (choice.pixels == 0 || pixels > 2 * choice.pixels || 2 * pixels < choice.pixels)
-    choice = {ReadbackProbe(), pixels};
-  return choice.probe.next();
-}
-
-std::string ReadbackChoices::note(uint32_t window, const CapturedFrame& frame) {
-  if (wish_ != Readback::kAuto) return "";
-  const std::lock_guard lock(mutex_);
-  const auto found = choices_.find(window);
-  if (found == choices_.end()) return "";
-  const uint64_t buffered_ns = frame.buffered_ns > 0 ? frame.bind_ns + frame.buffered_ns : 0;
-  const bool settled = found->second.probe.note(frame.way, frame.bind_ns + frame.read_ns, buffered_ns);
-  return settled ? found->second.probe.text() : "";
-}
-
-void ReadbackChoices::forget(uint32_t window) {
-  if (wish_ != Readback::kAuto) return;
-  const std::lock_guard lock(mutex_);
-  choices_.erase(window);
-}
-
 }  // namespace tilepress

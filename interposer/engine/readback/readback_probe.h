@@ -2,13 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "interposer/engine/readback/captured_frame.h"
-#include "tilepress/run_options.h"
 
 namespace tilepress {
 
@@ -35,27 +32,6 @@ class ReadbackProbe {
   State state_ = State::kSync;
   size_t passed_over_ = 0;
   std::vector<uint64_t> sync_ns_, buffered_ns_, trial_ns_;
-};
-
-/// The choice of every window. Thread-safe.
-class ReadbackChoices {
- public:
-  explicit ReadbackChoices(Readback wish) : wish_(wish) {}
-  /// How to read the window's next frame, of `pixels` pixels. A window is probed again when it has become
-  /// more than twice as large or less than half as large since.
-  ReadWay way(uint32_t window, uint64_t pixels);
-  /// A frame was read. One line for the log when that settled the choice, else empty.
-  std::string note(uint32_t window, const CapturedFrame& frame);
-  void forget(uint32_t window);
-
- private:
-  struct Choice {
-    ReadbackProbe probe;
-    uint64_t pixels = 0;
-  };
-  const Readback wish_;
-  std::mutex mutex_;
-  std::map<uint32_t, Choice> choices_;
 };
 
 }  // namespace tilepress

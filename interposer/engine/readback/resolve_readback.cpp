@@ -1,5 +1,5 @@
-// Resolve readback: by glBlitFramebuffer, as the program itself would. The private context has no state that
-// a blit minds: no scissor, no conditional rendering.
+// Resolve readback: calls glBlitFramebuffer, as a program would. The private context has none of the state that
+// a blit heeds: no scissor, no conditional rendering.
 #include "interposer/engine/readback/resolve_readback.h"
 
 #include <GL/glext.h>
@@ -10,8 +10,8 @@
 namespace tilepress {
 namespace {
 
-// Two framebuffers and a renderbuffer for one blit. Mesa shares even the names of framebuffers with the
-// program: none is kept.
+// Two framebuffers and a renderbuffer for one blit. They live no longer, because Mesa shares even the names of
+// framebuffers with the program.
 class ResolveObjects {
  public:
   explicit ResolveObjects(const GlFunctions& gl) : gl_(gl) {
@@ -33,7 +33,7 @@ class ResolveObjects {
     gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffers_[0]);
     gl_.FramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, storage_);
   }
-  /// False if nobody tells which layer of an array it is.
+  /// Returns false if GL does not say which layer of an array the image is.
   bool read_from(const Attachment& image) const {
     gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffers_[1]);
     if (!image.texture) {
@@ -44,7 +44,7 @@ class ResolveObjects {
     gl_.FramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, image.name,
                              0);
     if (gl_.GetError() == GL_NO_ERROR) return true;
-    const bool certain = image.layer != 0 || tells_layers(image.name);
+    const bool certain = image.layer != 0 || reports_layers(image.name);
     gl_.FramebufferTextureLayer(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, image.name, 0, image.layer);
     return certain;
   }
@@ -56,7 +56,7 @@ class ResolveObjects {
 
  private:
   /// Mesa answers 0 for every layer of a multisampled array.
-  bool tells_layers(GLuint array) const {
+  bool reports_layers(GLuint array) const {
     GLint layers = 0, layer = 0;
     if (gl_.BindTexture == nullptr || gl_.GetTexLevelParameteriv == nullptr) return false;
     gl_.BindTexture(GL_TEXTURE_2D_MULTISAMPLE_ARRAY, array);
@@ -97,38 +97,36 @@ GLenum storage_format(const SurfaceShape& shape) {
 }
 
 void blit(const GlFunctions& gl, GLint width, GLint height) {
-  const uint8_t mark =
-      *drawn_mark();  // a call of ours may come along the second road, as if the program drew
+  const uint8_t mark = *drawn_mark();  // our call may come along the second road, as if the program drew
   gl.BlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   *drawn_mark() = mark;
 }
 
 }  // namespace
 
-bool read_resolved(const GlFunctions& gl, const Attachment& attachment, const SurfaceShape& shape,
-                   CapturedFrame& frame, std::string& reason) {
-  reason = "the image cannot be resolved";
-  if (!can_resolve(gl)) return false;
+Result<void> read_resolved(const GlFunctions& gl, const Attachment& attachment, const SurfaceShape& shape,
+                           CapturedFrame& frame) {
+  const Error failed{ErrorKind::kUnsupported, "the image cannot be resolved"};
+  if (!can_resolve(gl)) return failed;
   const auto width = static_cast<GLint>(shape.width), height = static_cast<GLint>(shape.height);
   const ResolveObjects objects(gl);
   objects.draw_to(storage_format(shape), width, height);
-  if (!objects.read_from(attachment)) {
-    reason = "the driver does not tell which layer of the array is drawn";
-    return false;
-  }
+  if (!objects.read_from(attachment))
+    return Error{ErrorKind::kUnsupported, "the driver does not say which layer of the array is drawn"};
   objects.clear_errors();
   blit(gl, width, height);
-  if (gl.GetError() != GL_NO_ERROR) return false;
+  if (gl.GetError() != GL_NO_ERROR) return failed;
   objects.read_what_was_drawn();
   Attachment resolved;
   resolved.point = GL_COLOR_ATTACHMENT0;
   const bool read = read_attachment_in_program_context(gl, resolved, FramebufferUse::kRead, shape, frame);
-  return gl.GetError() == GL_NO_ERROR && read;
+  if (!read || gl.GetError() != GL_NO_ERROR) return failed;
+  return {};
 }
 
 BackBuffer::BackBuffer(const GlFunctions& gl, const SurfaceShape& shape) : gl_(gl) {
-  // Drivers have crashed on a read with READ_BUFFER = NONE; a fresh context on a window has GL_BACK, on
-  // others maybe not.
+  // Drivers have crashed on a read with READ_BUFFER = NONE. A fresh context has GL_BACK on a window, but perhaps
+  // not on other surfaces.
   if (gl.ReadBuffer != nullptr) gl.ReadBuffer(GL_BACK);
   GLint multisampled = 0;
   gl.GetIntegerv(GL_SAMPLE_BUFFERS, &multisampled);
@@ -142,7 +140,7 @@ BackBuffer::BackBuffer(const GlFunctions& gl, const SurfaceShape& shape) : gl_(g
   gl.FramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, storage_);
   blit(gl, width, height);
   gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
-  error_ = gl.GetError();
+  whole_ = gl.GetError() == GL_NO_ERROR;
 }
 
 BackBuffer::~BackBuffer() {

@@ -1,5 +1,4 @@
-// Config cache: what a framebuffer config is, asked of the driver once: choosing one by its number sorts them
-// all.
+// Config cache: the framebuffer configs seen so far. To find a config by its number, a driver sorts all of them.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +11,14 @@
 namespace tilepress {
 
 struct KnownConfig {
-  void* config = nullptr;             ///< EGLConfig or GLXFBConfig; good as long as the display
-  std::optional<PixelFormat> format;  ///< empty: its channels fit none
-  bool multisampled = false;          ///< not to be read without a resolve
-  bool double_buffered = true;        ///< GLX; of an EGL surface it is the surface that knows
-  bool srgb_capable = false;          ///< GLX, as is this
+  void* config = nullptr;             ///< EGLConfig or GLXFBConfig, valid as long as the display
+  std::optional<PixelFormat> format;  ///< empty: no format has these channels
+  bool multisampled = false;          ///< a read must resolve it first
+  bool double_buffered = true;        ///< GLX only: EGL has this per surface
+  bool srgb_capable = false;          ///< GLX only
 };
 
-/// By display and number (of config, and of screen where numbers are per screen). Thread-safe.
+/// By display, config number and screen number. Thread-safe.
 class ConfigCache {
  public:
   struct Key {
@@ -27,20 +26,20 @@ class ConfigCache {
     int id, screen;
     bool operator==(const Key&) const = default;
   };
-  /// The config of `key`; `ask` gives it, or nothing, the first time.
-  template <typename Ask>
-  std::optional<KnownConfig> find(const Key& key, const Ask& ask) {
+  /// Returns the config of `key`. Calls `query` for it until `query` returns one.
+  template <typename Query>
+  std::optional<KnownConfig> find(const Key& key, const Query& query) {
     {
       const std::lock_guard lock(mutex_);
       for (const Entry& entry : entries_)
         if (entry.key == key) return entry.config;
     }
-    const std::optional<KnownConfig> found = ask();
+    const std::optional<KnownConfig> found = query();
     const std::lock_guard lock(mutex_);
     if (found) entries_.push_back({key, *found});
     return found;
   }
-  /// The display ends: its configs and their numbers may mean something else afterwards.
+  /// The display ends. Its configs and their numbers may mean something else afterwards.
   void forget(const void* display) {
     const std::lock_guard lock(mutex_);
     std::erase_if(entries_, [&](const Entry& entry) { return entry.key.display == display; });

@@ -7,14 +7,20 @@
 
 namespace tilepress {
 
-/// The loaded library that holds `present.real`, which stays loaded for good; or, where the present came from
-/// a driver without its public library, the driver itself.
+/// The loaded library that holds `present.real`. The library stays loaded for good. For a call that came from
+/// a driver without its public library, it is the driver itself.
 class LibrarySymbols {
  public:
   LibrarySymbols(const TilepressHost& host, const TilepressPresent& present);
-  /// From there and the libraries it depends on, else from the program's global scope, else null.
+  /// Searches the library and those it depends on, then the program's global scope. Returns null at the end.
   void* find(const char* name) const;
-  /// From a library that is loaded already, e.g. "libGLESv2.so.2".
+  /// Sets `function` to the result of find(). Returns false for null.
+  template <typename Function>
+  bool fill(Function& function, const char* name) const {
+    function = reinterpret_cast<Function>(find(name));
+    return function != nullptr;
+  }
+  /// Searches a library that is loaded already, e.g. "libGLESv2.so.2".
   void* find_in_loaded(const char* library, const char* name) const;
 
  private:

@@ -1,5 +1,5 @@
-// OSMesa source: the buffer that OSMesaMakeCurrent named, read through GL, because the memory itself follows
-// the rendering only when the program flushes.
+// OSMesa source: describes the buffer of OSMesaMakeCurrent and reads it through GL. The buffer's memory is up to
+// date only after a flush of the program.
 #include <GL/gl.h>
 #include <GL/glext.h>
 
@@ -11,7 +11,7 @@
 namespace tilepress {
 namespace {
 
-// Of GL/osmesa.h, which a machine that builds need not have (Mesa dropped OSMesa in 25.1).
+// From GL/osmesa.h, which Mesa no longer ships (since 25.1).
 constexpr GLint kRgba = GL_RGBA, kBgra = 1, kArgb = 2, kRgb565 = 5;
 constexpr GLint kWidth = 0x20, kHeight = 0x21, kFormat = 0x22, kType = 0x23;
 
@@ -20,10 +20,8 @@ struct OsmesaFunctions {
   void (*GetIntegerv)(GLint, GLint*) = nullptr;
 
   bool load(const LibrarySymbols& library) {
-    GetCurrentContext =
-        reinterpret_cast<decltype(GetCurrentContext)>(library.find("OSMesaGetCurrentContext"));
-    GetIntegerv = reinterpret_cast<decltype(GetIntegerv)>(library.find("OSMesaGetIntegerv"));
-    return GetCurrentContext != nullptr && GetIntegerv != nullptr;
+    return library.fill(GetCurrentContext, "OSMesaGetCurrentContext") &&
+           library.fill(GetIntegerv, "OSMesaGetIntegerv");
   }
 };
 
@@ -31,27 +29,28 @@ class OsmesaSource final : public PresentSource {
  public:
   OsmesaSource(const OsmesaFunctions& osmesa, const GlFunctions& gl) : osmesa_(osmesa), gl_(gl) {}
 
-  bool describe(const TilepressPresent&, WindowKey& key, SurfaceShape& shape, std::string& reason) override {
-    const GLint width = ask(kWidth), height = ask(kHeight);
-    if (width < 1 || height < 1) {
-      reason = "no buffer is current";
-      return false;
-    }
-    key = {context(), 0};
-    shape = {static_cast<uint32_t>(width), static_cast<uint32_t>(height), format()};
-    return true;
+  const char* api() const override { return "OSMesa"; }
+  const GlFunctions& gl() const override { return gl_; }
+
+  Result<Drawable> describe(const TilepressPresent&) override {
+    const GLint width = query(kWidth), height = query(kHeight);
+    if (width < 1 || height < 1) return Error{ErrorKind::kUnsupported, "no buffer is current"};
+    return Drawable{{context(), 0}, {static_cast<uint32_t>(width), static_cast<uint32_t>(height), format()}};
   }
 
-  bool read(const TilepressPresent& present, const SurfaceShape& shape, CapturedFrame& frame,
-            std::string& reason) override {
-    return read_in_place(present, shape, GL_FRONT, frame, reason);
+  Result<void> read(const TilepressPresent& present, const Drawable& drawable, CapturedFrame& frame) override {
+    return read_in_place(present, drawable, GL_FRONT, frame);
   }
 
-  bool read_in_place(const TilepressPresent&, const SurfaceShape& shape, GLenum buffer, CapturedFrame& frame,
-                     std::string& reason) override {
+  Result<void> read_in_place(const TilepressPresent&, const Drawable& drawable, GLenum buffer,
+                             CapturedFrame& frame) override {
     frame.way = ReadWay::kInContext;
-    if (read_in_program_context(gl_, shape, buffer, frame)) return true;
-    return fail(reason, "the program's context cannot be read");
+    if (read_in_program_context(gl_, drawable.shape, buffer, frame)) return {};
+    return Error{ErrorKind::kUnsupported, "the program's context cannot be read"};
+  }
+
+  Result<void> beside(const TilepressPresent&, const std::function<void()>&) override {
+    return Error{ErrorKind::kUnsupported, "an OSMesa context is alone on its thread"};
   }
 
   bool find_current(TilepressPresent& present, FramebufferUse) override {
@@ -60,26 +59,19 @@ class OsmesaSource final : public PresentSource {
     return osmesa_.GetCurrentContext() != nullptr;
   }
   const void* context() const override { return osmesa_.GetCurrentContext(); }
-  const GlFunctions& gl() const override { return gl_; }
-  bool beside(const TilepressPresent&, const std::function<void()>&, std::string& reason) override {
-    reason = "an OSMesa context is alone on its thread";
-    return false;
-  }
   void release(void*) override {}
 
-  const char* api() const override { return "OSMesa"; }
-
  private:
-  GLint ask(GLint question) const {
+  GLint query(GLint name) const {
     GLint value = 0;
-    osmesa_.GetIntegerv(question, &value);
+    osmesa_.GetIntegerv(name, &value);
     return value;
   }
 
-  /// Pixels of 24 bits, and of floats or 16 bits a channel, are none of the modelled formats.
+  /// No modelled format has 24-bit pixels, or floats or 16 bits per channel.
   std::optional<PixelFormat> format() const {
-    const GLint type = ask(kType);
-    switch (ask(kFormat)) {
+    const GLint type = query(kType);
+    switch (query(kFormat)) {
       case kRgba:
       case kBgra:
       case kArgb:
@@ -97,9 +89,9 @@ class OsmesaSource final : public PresentSource {
 
 }  // namespace
 
-std::unique_ptr<PresentSource> make_osmesa_source(const TilepressHost& host,
+std::unique_ptr<PresentSource> make_osmesa_source(const SourceSettings& settings,
                                                   const TilepressPresent& present) {
-  const LibrarySymbols library(host, present);
+  const LibrarySymbols library(settings.host, present);
   OsmesaFunctions osmesa;
   GlFunctions gl;
   if (!osmesa.load(library)) return nullptr;

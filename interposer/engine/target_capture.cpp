@@ -1,0 +1,129 @@
+// Target capture: measures images, takes a shot of each, and commits it at once.
+#include "interposer/engine/target_capture.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include "interposer/engine/gl_trigger.h"
+#include "interposer/engine/monotonic_clock.h"
+#include "interposer/engine/readback/attachment_shape.h"
+#include "interposer/engine/readback/target_watch.h"
+
+namespace tilepress {
+namespace {
+
+constexpr uintptr_t kNameMask = uintptr_t{1} << 63 | 0xFFFFFFFFu;  // the bits of a name in Attachment::image()
+
+bool deletes_images(uint32_t kind) {
+  return kind == TILEPRESS_GL_DELETE_TEXTURES || kind == TILEPRESS_GL_DELETE_RENDERBUFFERS;
+}
+
+/// Asks the program's context for all sizes. If that context has no query for the first one, asks a private
+/// context that shares its objects.
+std::vector<Result<ImageShape>> measure(const TilepressPresent& present, PresentSource& source,
+                                        const std::vector<Attachment>& images) {
+  std::vector<Result<ImageShape>> shapes;
+  for (const Attachment& image : images) shapes.push_back(shape_in_program_context(source.gl(), image));
+  if (shapes[0]) return shapes;
+  const Result<void> ran = source.beside(present, [&] {
+    for (size_t i = 0; i < images.size(); ++i) shapes[i] = shape_in_sharing_context(source.gl(), images[i]);
+  });
+  for (Result<ImageShape>& shape : shapes)
+    if (!ran && !shape) shape = ran.error();
+  return shapes;
+}
+
+}  // namespace
+
+void TargetCapture::gl_call(const TilepressGlCall& call) {
+  const bool ends_frame = is_trigger(call.kind);
+  if (ends_frame ? comes_again(call) : !concerns_targets(call) && !deletes_images(call.kind)) return;
+  TilepressPresent present;
+  PresentSource* source = sources_.of_current(call, use_of(call.kind), present);
+  if (source == nullptr) return;
+  const uint32_t error = source->take_error();
+  if (ends_frame)
+    end_frame(call, present, *source);
+  else
+    leave_targets(call, present, *source);
+  source->put_back_error(error);
+}
+
+void TargetCapture::end_frame(const TilepressGlCall& call, const TilepressPresent& present,
+                              PresentSource& source) {
+  const FramebufferUse use = use_of(call.kind);
+  const GlFunctions& gl = source.gl();
+  const ContextVersion version = version_of(gl);
+  if (bound_framebuffer(gl, version, use) == 0) return take_default_framebuffer(call, present, source);
+  if (!is_complete(gl, version, use)) return;
+  std::vector<Attachment> images;
+  for (const GLenum point : buffers_in_use(gl, version, use))
+    if (Attachment image; describe_attachment(gl, version, use, point, image)) images.push_back(image);
+  take_images(present, source, images, use, SurfaceRole::kPresented, cause_of(call.kind));
+}
+
+void TargetCapture::take_default_framebuffer(const TilepressGlCall& call, const TilepressPresent& present,
+                                             PresentSource& source) {
+  const FramebufferUse use = use_of(call.kind);
+  const char* cause = cause_of(call.kind);
+  const std::vector<GLenum> buffers = buffers_in_use(source.gl(), version_of(source.gl()), use);
+  const uint64_t begin_ns = now_ns();
+  if (buffers.empty()) return log_.debug(std::string(cause) + ": no buffer is in use");
+  const Result<Drawable> drawable = source.describe(present);
+  if (!drawable) return log_.debug(about(cause, drawable.error()).text);
+  CaptureWorker* worker = run_.worker(present, source);
+  if (worker == nullptr) return;
+  const ShotBuilder shots(source, present);
+  Take take = taker_.take(shots.of_buffer(*drawable, buffers[0], cause, begin_ns), *worker);
+  take.triggered = true;
+  if (call.by_default && take.frame != nullptr && is_second_of_pair(call.kind, *take.frame))
+    taker_.discard(take, *worker);
+  else
+    taker_.commit(take, *worker);
+}
+
+void TargetCapture::leave_targets(const TilepressGlCall& call, const TilepressPresent& present,
+                                  PresentSource& source) {
+  const void* context = source.context();
+  take_images(present, source, targets_left_by(source.gl(), call, context), FramebufferUse::kDraw,
+              SurfaceRole::kTarget, "target");
+  if (!deletes_images(call.kind)) return;
+  const auto count = static_cast<int32_t>(call.arguments[0]);
+  const auto* names = reinterpret_cast<const GLuint*>(call.arguments[1]);
+  for (int32_t i = 0; names != nullptr && i < count; ++i) {
+    Attachment gone;
+    gone.texture = call.kind == TILEPRESS_GL_DELETE_TEXTURES;
+    gone.name = names[i];
+    forget(context, gone.image(), kNameMask);
+  }
+}
+
+void TargetCapture::take_targets(const TilepressPresent& present, PresentSource& source) {
+  if (source.context() == nullptr) return;
+  take_images(present, source, targets_left(source.gl()), FramebufferUse::kDraw, SurfaceRole::kTarget,
+              "target");
+}
+
+void TargetCapture::take_images(const TilepressPresent& present, PresentSource& source,
+                                const std::vector<Attachment>& images, FramebufferUse use, SurfaceRole role,
+                                const char* cause) {
+  if (images.empty()) return;
+  CaptureWorker* worker = run_.worker(present, source);
+  if (worker == nullptr) return;
+  const uint64_t begin_ns = now_ns();
+  const std::vector<Result<ImageShape>> shapes = measure(present, source, images);
+  const ShotBuilder shots(source, present);
+  for (size_t i = 0; i < images.size(); ++i) {
+    const uint64_t image_ns = images.size() == 1 ? begin_ns : now_ns();
+    const Shot shot = shots.of_image(images[i], shapes[i], use, role, cause, image_ns);
+    taker_.commit(shapes[i] ? taker_.take(shot, *worker) : taker_.miss(shot, shapes[i].error()), *worker);
+  }
+}
+
+void TargetCapture::forget(const void* context, uintptr_t image, uintptr_t mask) {
+  CaptureWorker* worker = run_.worker_if_started();
+  for (const uint32_t window : registry_.forget_targets(context, image, mask))
+    if (worker != nullptr) worker->queue().submit_end_of(window);
+}
+
+}  // namespace tilepress
