@@ -1,4 +1,4 @@
-// Engine: the C face of the capture, one Capture per process id. Nothing is thrown past here.
+// Engine: the C face of the capture, with one Capture per process id. No exception leaves this file.
 #include <unistd.h>
 
 #include <atomic>
@@ -14,8 +14,8 @@ namespace {
 TilepressHost host;
 std::atomic<Capture*> current{nullptr};
 
-// The capture of this process. After a fork the child finds its parent's, whose worker does not exist here
-// and whose locks may be held by threads that do not exist either: it is left behind as it is.
+// The capture of this process. After a fork the child finds its parent's capture: neither its worker nor the
+// threads that may hold its locks exist here. The child leaves that capture as it is and makes its own.
 Capture* capture_of_this_process() {
   Capture* known = current.load(std::memory_order_acquire);
   if (known != nullptr && known->pid() == getpid()) return known;
@@ -44,30 +44,32 @@ void end(TilepressPresent* present, int presented) {
   inside_engine = false;
 }
 
-// Of this process, if it has captured anything.
+// Returns null if this process has captured nothing.
 Capture* known_capture() {
   Capture* known = current.load(std::memory_order_acquire);
   return known != nullptr && known->pid() == getpid() ? known : nullptr;
 }
 
-void gl_call(const TilepressGlCall* call) {
+// Does nothing on a thread that is inside the engine already.
+template <typename Work>
+void run_inside(const Work& work) {
   if (inside_engine) return;
   inside_engine = true;
   try {
-    capture_of_this_process()->gl_call(*call);
+    work();
   } catch (...) {
   }
   inside_engine = false;
 }
 
+void gl_call(const TilepressGlCall* call) {
+  run_inside([&] { capture_of_this_process()->gl_call(*call); });
+}
+
 void contexts_going(uint32_t api, void* display, void* context) {
-  if (inside_engine) return;
-  inside_engine = true;
-  try {
+  run_inside([&] {
     if (Capture* known = known_capture()) known->contexts_going(api, display, context);
-  } catch (...) {
-  }
-  inside_engine = false;
+  });
 }
 
 void surface_going(void* display, uintptr_t surface) {
@@ -95,8 +97,8 @@ extern "C" __attribute__((visibility("default"))) const TilepressEngine* tilepre
     const TilepressHost* host) {
   if (host == nullptr || host->version != TILEPRESS_ENGINE_VERSION) return nullptr;
   tilepress::host = *host;
-  // Handlers run from the last to the first, and before all destructors: libraries that this engine calls
-  // into are still whole then. Frames that are presented later are counted, and not read.
+  // Exit handlers run from the last to the first, and before all destructors: the libraries that the engine
+  // calls are still whole then. Frames that are presented later are counted and not read.
   std::atexit([] { tilepress::finish(); });
   at_quick_exit([] { tilepress::finish(); });
   return &tilepress::kEngine;

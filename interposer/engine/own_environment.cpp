@@ -1,5 +1,5 @@
-// Own environment: the engine's getenv, hidden in it. Shells and sandboxes define a getenv of their own, which may
-// not know the variables that the launcher has set.
+// Own environment: the engine's getenv, which the engine does not export. Shells and sandboxes define a
+// getenv of their own, which may not know the launcher's variables.
 #include <unistd.h>
 
 #include <cstddef>

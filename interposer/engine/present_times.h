@@ -9,13 +9,14 @@
 
 namespace tilepress {
 
-/// Writes `<TILEPRESS_PRESENT_TIMES>/<pid>.times`, a row `surface,begin_ns,hook_ns` per presented frame.
-/// If that file exists, the name is `<pid>-2.times` and so on. Without the variable it is off. One write() per row: what ends the program loses none.
+/// Writes `<TILEPRESS_PRESENT_TIMES>/<pid>.times`, a row `surface,begin_ns,hook_ns` per presented frame. If
+/// that file exists, the name is `<pid>-2.times` and so on. Off without the variable. Each row is one
+/// write(), so a kill loses none.
 class PresentTimes {
  public:
   explicit PresentTimes(int64_t pid);
   bool on() const { return file_.is_open(); }
-  /// `begin_ns`: when the presenting call came in; `hook_ns`: what the shim took of it. Thread-safe.
+  /// `begin_ns`: when the presenting call came in. `hook_ns`: the shim's part of its time. Thread-safe.
   void note(uintptr_t surface, uint64_t begin_ns, uint64_t hook_ns);
 
  private:

@@ -19,7 +19,8 @@ std::vector<std::string> command_line() {
   return command;
 }
 
-/// The name that the program was started by. A retracer sets program_invocation_name to the name of its trace.
+/// The name that the program was started by. A retracer sets program_invocation_name to the name of its
+/// trace.
 std::string program_name() {
   const auto* path = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
   std::string name = path != nullptr ? path : "";

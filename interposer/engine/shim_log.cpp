@@ -21,7 +21,8 @@ class AppendingSink final : public spdlog::sinks::sink {
     int file = open_above_streams(path_, O_WRONLY | O_APPEND);
     if (file < 0) file = open_above_streams(path_, O_WRONLY | O_APPEND | O_CREAT);
     if (file < 0) return;
-    const std::string line = "tilepress: " + std::string(message.payload.data(), message.payload.size()) + "\n";
+    const std::string line =
+        "tilepress: " + std::string(message.payload.data(), message.payload.size()) + "\n";
     [[maybe_unused]] const ssize_t written = write(file, line.data(), line.size());
     close(file);
   }

@@ -20,16 +20,16 @@ struct Shot {
   std::string damage;          ///< as CapturedFrame::damage
   uint64_t begin_ns = 0;       ///< when its capture began
   bool may_be_late = false;    ///< the pixels may arrive after the call
-  /// A window that Mesa draws on the processor. Such a window may be resized at any time. When another context
-  /// becomes current on it, the driver takes new buffers and never shows what was drawn into the old ones.
-  /// NVIDIA's driver keeps what was drawn then. But when such a window is read in the program's context,
-  /// NVIDIA's driver loses the frame or ends the program.
+  /// A window that Mesa draws on the processor. Such a window may be resized at any time. When another
+  /// context becomes current on it, the driver takes new buffers and never shows what was drawn into the old
+  /// ones. NVIDIA's driver keeps what was drawn then. But when such a window is read in the program's
+  /// context, NVIDIA's driver loses the frame or ends the program.
   bool software_window = false;
   std::function<Result<void>(CapturedFrame& frame)> read;
 };
 
-/// Builds the shots of one call. A shot refers to the source, the present, and the drawable or image: all must
-/// outlive it.
+/// Builds the shots of one call. A shot refers to the source, the present, and the drawable or image: all
+/// must outlive it.
 class ShotBuilder {
  public:
   ShotBuilder(PresentSource& source, const TilepressPresent& present) : source_(source), present_(present) {}

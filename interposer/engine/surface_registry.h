@@ -1,4 +1,4 @@
-// Surface registry: which window is which surface, and how many frames it has presented.
+// Surface registry: numbers windows, surfaces and frames.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,10 @@
 
 namespace tilepress {
 
-/// Presented: what the program shows or hands out. Target: a framebuffer object's image on the way there.
+/// Presented: what the program shows or hands out. Target: an image of a framebuffer object on the way there.
 enum class SurfaceRole : uint8_t { kPresented, kTarget };
 
-/// What a program draws to, as the native API names it: display and surface, or a context and one of its
-/// images.
+/// What a program draws to: a display and a surface as the native API names them, or a context and an image.
 struct WindowKey {
   const void* display;
   uintptr_t surface;
@@ -23,21 +22,21 @@ struct WindowKey {
   bool operator==(const WindowKey&) const = default;
 };
 
-/// Size and pixel format. `format` is empty where the bits fit none of the known formats.
+/// Size and pixel format. `format` is empty if no known format has these channels.
 struct SurfaceShape {
   uint32_t width = 0, height = 0;
   std::optional<PixelFormat> format;
-  bool srgb = false;       ///< its values are encoded as sRGB
-  bool resizable = false;  ///< another may give it another size at any time, as a window
+  bool srgb = false;       ///< the values are encoded as sRGB
+  bool resizable = false;  ///< the window manager may change the size at any time
   bool operator==(const SurfaceShape&) const = default;
 };
 
-/// Numbers a present of a window. A surface is a buffer with a size and a pixel format: when a window changes
-/// either, its next frame is frame 0 of a new surface.
+/// A surface is a buffer with a size and a pixel format. When a window changes either, its next frame is
+/// frame 0 of a new surface.
 class SurfaceRegistry {
  public:
-  /// Windows known at a time: of an X window nobody tells us when it ends, so the one that has not presented
-  /// for the longest time is forgotten.
+  /// Windows known at a time. The shim does not learn when an X window ends, so the registry forgets the
+  /// window whose last present is the oldest.
   static constexpr size_t kMaxWindows = 64;
   static constexpr size_t kMaxTargets = 256;  ///< the same for targets
 
@@ -45,20 +44,21 @@ class SurfaceRegistry {
     uint32_t window, surface;
     uint64_t frame;
     uint64_t interval_ns;               ///< since the window's last present, from call to call; 0 = its first
-    std::optional<uint32_t> forgotten;  ///< a window that had to make room
-    bool new_shape;  ///< no presenting call was made since the window was first met, or met at this shape
+    std::optional<uint32_t> forgotten;  ///< a window that the registry forgot to make room
+    bool new_shape;                     ///< no presenting call has shown the window at this shape yet
   };
-  /// The numbers the next frame of the window bears; asking changes nothing but the shape. Thread-safe.
+  /// Returns the numbers of the window's next frame. Changes nothing but the shape. Thread-safe, as all
+  /// members.
   Turn turn(const WindowKey& key, const SurfaceShape& shape, uint64_t now_ns);
-  /// The window has presented the frame that turn() numbered, in a call that came in at `begin_ns`; it goes
-  /// on drawing into the same buffer if that was `triggered` by another call than a presenting one.
+  /// The window has presented the frame that turn() numbered, in a call that came in at `begin_ns`.
+  /// `triggered`: the call was no presenting call, and the program goes on drawing into the same buffer.
   void presented(uint32_t window, uint64_t begin_ns, bool triggered);
-  /// The window is gone: what presents under its handle later is another. Its number, if it was known.
+  /// The window is gone, and a later window may get its handle. Returns the window's number if it was known.
   std::optional<uint32_t> forget(const WindowKey& key);
-  /// The targets of `context` are gone: all, or those whose image has these bits where `mask` is set. Their
-  /// numbers.
+  /// Targets of `context` are gone: those whose image equals `image` in the bits of `mask`, so all if `mask`
+  /// is 0. Returns their numbers.
   std::vector<uint32_t> forget_targets(const void* context, uintptr_t image = 0, uintptr_t mask = 0);
-  /// True the first time it is asked for `surface`: a thing to be said once.
+  /// Returns true the first time for `surface`, for a line that the log should have once.
   bool first_report(uint32_t surface);
 
  private:

@@ -12,7 +12,8 @@
 namespace tilepress {
 namespace {
 
-constexpr uintptr_t kNameMask = uintptr_t{1} << 63 | 0xFFFFFFFFu;  // the bits of a name in Attachment::image()
+constexpr uintptr_t kNameMask =
+    uintptr_t{1} << 63 | 0xFFFFFFFFu;  // the bits of a name in Attachment::image()
 
 bool deletes_images(uint32_t kind) {
   return kind == TILEPRESS_GL_DELETE_TEXTURES || kind == TILEPRESS_GL_DELETE_RENDERBUFFERS;

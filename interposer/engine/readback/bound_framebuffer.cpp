@@ -1,4 +1,4 @@
-// Bound framebuffer: each question is one that the context's version knows.
+// Bound framebuffer: makes only queries that the context's version has.
 #include "interposer/engine/readback/bound_framebuffer.h"
 
 #include <GL/glext.h>
@@ -106,7 +106,7 @@ bool describe_attachment(const GlFunctions& gl, const ContextVersion& version, F
         component == GL_INT || component == GL_UNSIGNED_INT || component == GL_SIGNED_NORMALIZED;
     out.srgb = ask(GL_FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) == GL_SRGB;
   } else {
-    // The sizes of the bound framebuffer, which before version 3 has one colour attachment.
+    // Before version 3 a framebuffer has one colour attachment, and these queries are about that one.
     for (const auto& [question, bits] : {std::pair{GL_RED_BITS, &out.bits.red},
                                          {GL_GREEN_BITS, &out.bits.green},
                                          {GL_BLUE_BITS, &out.bits.blue},

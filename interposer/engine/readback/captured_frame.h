@@ -14,7 +14,7 @@
 
 namespace tilepress {
 
-/// How a frame is read. Asked of a source, which notes what came of it.
+/// How a frame is read. The read policy sets the wanted way, and the source the way taken.
 enum class ReadWay : uint8_t {
   kSync,       ///< into the frame's own memory, in the call
   kAsync,      ///< into a pixel buffer; the pixels follow
@@ -24,38 +24,38 @@ enum class ReadWay : uint8_t {
 
 /// Owns its pixels; the memory is kept when the frame is used again.
 struct CapturedFrame {
-  bool last_of_window = false;  ///< no pixels: the window is gone, and so may be what is kept for it
-  uint32_t window = 0;          ///< which of the program's surfaces, whatever its size
-  uint32_t surface = 0;         ///< surface number in the statistics: a window at one size and format
+  bool last_of_window = false;  ///< no pixels: the window is gone, and the worker may free its state
+  uint32_t window = 0;          ///< number of the program's window, at any size
+  uint32_t surface = 0;         ///< number of the window at one size and format, as in the statistics
   uint64_t frame = 0;           ///< number of the frame within its surface
   uint64_t time_ns = 0;         ///< since the run began
-  uint64_t readback_ns = 0;     ///< all that the program's thread spent, without wait_ns
-  uint64_t read_ns = 0;         ///< of that, in the read itself, which waits for the rendering to end
-  uint64_t wait_ns = 0;         ///< for room in the queue
-  uint64_t bind_ns = 0;      ///< of readback_ns, in making a private context current and the program's again
-  uint64_t hand_off_ns = 0;  ///< giving the frame to the worker, after the real call
-  uint64_t interval_ns = 0;  ///< since the window's last present; 0 = its first
+  uint64_t readback_ns = 0;     ///< time of the capture on the program's thread, without wait_ns
+  uint64_t read_ns = 0;         ///< part of readback_ns: the read, which waits for the rendering to end
+  uint64_t wait_ns = 0;         ///< waiting for room in the queue
+  uint64_t bind_ns = 0;         ///< part of readback_ns: making a private context current, and back
+  uint64_t hand_off_ns = 0;     ///< handing the frame to the worker, after the real call
+  uint64_t interval_ns = 0;     ///< since the window's last present; 0 = its first
   SurfaceRole role = SurfaceRole::kPresented;
-  const char* cause = "swap";  ///< why it was taken: "swap", "finish", "flush", "readpixels", "target"
-  std::string origin;          ///< of its surface: "window", "texture 3"
-  bool srgb = false;           ///< its values are encoded as sRGB
-  std::string damage;  ///< "x y width height;…" from the bottom left, as presented; empty = everything
+  const char* cause = "swap";  ///< "swap", "finish", "flush", "readpixels" or "target"
+  std::string origin;          ///< what the surface is: "window", "buffer", "texture 3", …
+  bool srgb = false;           ///< the values are encoded as sRGB
+  std::string damage;          ///< "x y width height;…" from the bottom left; empty = everything
 
   ReadWay way = ReadWay::kSync;
-  bool partial = false;            ///< its buffer may be smaller than what is read: the rest is to be 0
-  uint64_t buffered_ns = 0;        ///< of kBoth: what the read into a pixel buffer took; 0 = cannot be done
-  std::unique_ptr<LateRead> late;  ///< of kAsync, until it is posted to the late reader
-  std::function<void(bool whole)> arrive;  ///< to be called there once, from any thread
+  bool partial = false;            ///< the buffer may be smaller than the read: the rest must be 0
+  uint64_t buffered_ns = 0;        ///< kBoth: time of the read into a pixel buffer; 0 = that is not possible
+  std::unique_ptr<LateRead> late;  ///< kAsync, until the frame is posted to the late reader
+  std::function<void(bool whole)> arrive;  ///< the late reader calls it once, from any thread
 
   // The frame queue's, under its lock.
-  bool awaited = false;   ///< the pixels have not arrived yet
-  bool lost = false;      ///< they never will
-  bool unwanted = false;  ///< released before they arrived
+  bool awaited = false;           ///< the pixels have not arrived yet
+  bool lost = false;              ///< the pixels will never arrive
+  bool unwanted = false;          ///< released before the pixels arrived
   CapturedFrame* next = nullptr;  ///< in the same list
 
-  SurfaceView view;  ///< lies in `pixels`
+  SurfaceView view;  ///< of pixels_
 
-  /// Room for `bytes` bytes, contents undefined; null if there is no memory.
+  /// Returns room for `bytes` bytes with undefined contents, or null without memory.
   std::byte* reserve(size_t bytes) { return pixels_.reserve(bytes); }
 
  private:

@@ -1,5 +1,4 @@
-// Context pool: the shim's own contexts, one per display and config, more where threads present at the same
-// time.
+// Context pool: the shim's own contexts, one per display and config, and more if threads present at once.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +8,7 @@
 
 namespace tilepress {
 
-/// Contexts that are current on no thread. None is destroyed at the end of a process, where GL must not be
+/// Contexts that are current on no thread. The pool destroys none: at the end of a process GL must not be
 /// called.
 class ContextPool {
  public:
@@ -18,7 +17,7 @@ class ContextPool {
     uintptr_t config;
     bool operator==(const Key&) const = default;
   };
-  /// A free context for `key`, which is the caller's until give(); null if there is none.
+  /// Returns a free context for `key`, or null. The caller owns the context until give().
   void* take(const Key& key) {
     std::lock_guard lock(mutex_);
     const auto found =

@@ -1,5 +1,5 @@
-// GL readback: asks for the implementation's own format, because any other is converted pixel by pixel on the
-// program's thread, and because a conversion of 16-bit or 10-bit pixels would not be the surface any more.
+// GL readback: reads in the implementation's own format. Any other is converted pixel by pixel on the
+// program's thread, and a conversion of 16-bit or 10-bit pixels would lose the surface's own values.
 #include "interposer/engine/readback/gl_readback.h"
 
 #include <utility>
@@ -16,7 +16,7 @@ Transfer transfer_of(PixelFormat format, const GlFunctions& gl) {
   gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &preferred_format);
   gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &preferred_type);
   while (gl.GetError() != GL_NO_ERROR) {
-  }  // desktop GL before 4.1 does not know the question
+  }  // desktop GL before 4.1 does not have the query
   return tilepress::transfer_of(format, preferred_format, preferred_type);
 }
 

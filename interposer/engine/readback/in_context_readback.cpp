@@ -1,20 +1,20 @@
-// In-context readback: what may be asked and set follows from the context's own version string, so that
-// neither raises an error the program would find.
+// In-context readback: the context's own version string says which queries and states it has, so that no call
+// raises an error that the program would find.
 #include "interposer/engine/readback/in_context_readback.h"
 
 #include <cstring>
 #include <optional>
 
-#include "interposer/engine/source/context_version.h"
 #include "interposer/engine/monotonic_clock.h"
 #include "interposer/engine/readback/neutral_read_state.h"
 #include "interposer/engine/readback/transfer.h"
+#include "interposer/engine/source/context_version.h"
 
 namespace tilepress {
 namespace {
 
-// Of the buffer that is bound; empty where this context does not read its format. OpenGL ES reads 8-bit RGBA,
-// and what else it offers itself.
+// For the buffer that is bound. Empty if this context does not read the format: OpenGL ES reads 8-bit RGBA,
+// and one other format that it names itself.
 std::optional<Transfer> transfer_of(const GlFunctions& gl, const ContextVersion& version,
                                     PixelFormat format) {
   GLint offered_format = GL_BGRA, offered_type = GL_UNSIGNED_BYTE;  // any desktop GL reads it

@@ -1,4 +1,4 @@
-// In-context readback: the way out where no private context can be had: reads in the program's own context.
+// In-context readback: reads in the program's own context.
 #pragma once
 
 #include "interposer/engine/readback/bound_framebuffer.h"
@@ -8,14 +8,14 @@
 
 namespace tilepress {
 
-/// Reads the whole of the default framebuffer's `buffer` (GL_BACK, GL_FRONT) in the current, foreign context
-/// into `frame`. Every state it sets is put back, and no call is made that could raise an error flag. False
-/// if the context cannot be read so (the format needs a question that this context does not know).
+/// Reads the whole `buffer` (GL_BACK, GL_FRONT) of the default framebuffer into `frame`. Puts back every
+/// state it sets, and makes no call that could raise an error flag. Returns false if the context cannot be
+/// read like that, because it lacks a query that the format needs.
 bool read_in_program_context(const GlFunctions& gl, const SurfaceShape& shape, GLenum buffer,
                              CapturedFrame& frame);
 
-/// The same for an attachment of the framebuffer object bound for `use`, which is complete and not
-/// multisampled.
+/// Does the same for an attachment of the framebuffer object that is bound for `use`. The framebuffer object
+/// must be complete and not multisampled.
 bool read_attachment_in_program_context(const GlFunctions& gl, const Attachment& attachment,
                                         FramebufferUse use, const SurfaceShape& shape, CapturedFrame& frame);
 

@@ -10,11 +10,11 @@ namespace tilepress {
 
 class PixelBuffers;
 
-/// Made where the read is asked for, ended by PixelBuffers::take or equals, once.
+/// PixelBuffers::begin makes it. PixelBuffers::take or equals ends it, once.
 struct LateRead {
-  std::shared_ptr<PixelBuffers> buffers;  ///< whose buffer it is
+  std::shared_ptr<PixelBuffers> buffers;  ///< the group that `buffer` belongs to
   GLuint buffer = 0;
-  void* fence = nullptr;  ///< GLsync: the pixels are there once it is signalled
+  void* fence = nullptr;  ///< GLsync, signalled when the pixels are there
   size_t bytes = 0;
 };
 

@@ -1,5 +1,5 @@
-// Late reader: whoever waits for it does so for a bounded time, because it may hang in a driver or, at the
-// end of the process, be gone.
+// Late reader: callers wait for the thread in bounded time, because it may hang in a driver, or be gone at
+// the end of the process.
 #include "interposer/engine/readback/late_reader.h"
 
 #include <unistd.h>
@@ -24,8 +24,8 @@ bool LateReader::is_of_this_process() const {
   return pid_ == getpid();
 }
 
-// Drivers end their own threads in handlers like this one. They have registered them before the first context
-// of ours could be made, so this one runs earlier; what is presented afterwards is read synchronously.
+// Drivers end their own threads in exit handlers too. They registered theirs before our first context was
+// made, so this handler runs earlier. Frames that are presented afterwards are read synchronously.
 void LateReader::at_exit() {
   LateReader* reader = running;
   if (reader == nullptr || !reader->is_of_this_process()) return;
@@ -111,7 +111,7 @@ void LateReader::run() {
     jobs_.pop_front();
     lock.unlock();
     work_off(job);
-    job = {};  // what it holds goes before it counts as done
+    job = {};  // frees what the job holds before the job counts as done
     lock.lock();
     ++done_;
     lock.unlock();

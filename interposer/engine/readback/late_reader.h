@@ -1,4 +1,4 @@
-// Late reader: the thread that takes late pixels out of pixel buffers, so that none waits for the program's
+// Late reader: the thread that copies late pixels out of pixel buffers, so that none waits for the program's
 // next call.
 #pragma once
 
@@ -9,30 +9,29 @@
 #include <memory>
 
 #include "interposer/engine/readback/captured_frame.h"
-#include "interposer/engine/worker/own_thread.h"
 #include "interposer/engine/readback/pixel_buffers.h"
+#include "interposer/engine/worker/own_thread.h"
 #include "interposer/engine/worker/plain_lock.h"
 
 namespace tilepress {
 
-/// Works jobs off in order. It is the only thread of ours that calls GL, always in a twin of a private
-/// context: without a surface, never in a context of the program. The thread starts with the first try_out;
-/// there is none before.
+/// Does jobs in order. It is our only thread that calls GL, always in the twin of a private context, without
+/// a surface, and never in a context of the program. The first try_out starts the thread.
 class LateReader {
  public:
   using Work = std::function<void(bool entered)>;
 
   LateReader();
-  /// True if the twin of `buffers` can be made current on the thread: asked once, before it is relied on.
+  /// Returns true if the thread can make the twin of `buffers` current. Call it once, before the first post.
   bool try_out(const std::shared_ptr<PixelBuffers>& buffers);
-  /// `work` runs with the twin of `buffers` current, or with false where that is no longer possible.
+  /// Runs `work` with the twin of `buffers` current. Passes false if that is no longer possible.
   void post(std::shared_ptr<PixelBuffers> buffers, Work work);
-  /// Has the pixels of a frame that is read late put where its view says, and its `arrive` called.
+  /// Copies the pixels of a late frame to where its view says, and calls its `arrive`.
   void post(CapturedFrame& frame);
-  /// Returns when all that was posted is done and the thread has nothing of `display` current; false if that
-  /// takes longer than two seconds.
+  /// Waits until all posted work is done and the thread has nothing of `display` current. Returns false if
+  /// that takes longer than two seconds.
   bool let_go(const void* display);
-  /// False once the process has begun to end: nothing new should be read late.
+  /// False once the process has begun to end: no new frame should be read late.
   bool accepts() const { return accepts_.load(std::memory_order_relaxed); }
 
  private:
@@ -45,7 +44,7 @@ class LateReader {
   bool is_of_this_process() const;
   bool start();
   using Lock = std::unique_lock<PlainMutex>;
-  /// Owns nothing if the mutex cannot be had within two seconds.
+  /// Gives up after two seconds, and returns a lock that owns nothing.
   Lock patient_lock();
   bool append(Job job, uint64_t& number);
   bool wait_for(uint64_t number);
@@ -59,9 +58,9 @@ class LateReader {
   PlainCondition changed_;
   std::deque<Job> jobs_;
   uint64_t posted_ = 0, done_ = 0;
-  OwnThread thread_;  ///< has no end
+  OwnThread thread_;  ///< never ends
   std::atomic<bool> accepts_{true};
-  std::shared_ptr<PixelBuffers> current_;  ///< the thread's own: whose twin is current
+  std::shared_ptr<PixelBuffers> current_;  ///< the group whose twin is current; for the thread alone
 };
 
 }  // namespace tilepress

@@ -1,5 +1,4 @@
-// Neutral read state: walks the table of read states. Which rows a context has is worked out once per
-// context.
+// Neutral read state: walks the table of read states. Finds out once per context which rows the context has.
 #include "interposer/engine/readback/neutral_read_state.h"
 
 #include <GL/glext.h>
@@ -16,11 +15,11 @@ namespace {
 
 constexpr GLfloat kIdentity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-/// Rows of the table that a context has. Trivial, because one is kept per thread.
+/// The rows of the table that a context has. Trivial, because each thread keeps one.
 struct KnownContext {
   char version[128];
   const void* extensions;  ///< where the string lies; null in a core profile
-  GLint extension_count;   ///< of a core profile, else 0
+  GLint extension_count;   ///< 0 unless a core profile
   GLint profile, flags;
   uint64_t rows;
 };

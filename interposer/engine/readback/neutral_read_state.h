@@ -1,26 +1,27 @@
-// Neutral read state: sets every state that a read heeds to its neutral value, and puts back what the program
-// set.
+// Neutral read state: sets every state that a read heeds to its neutral value, and puts back the program's
+// values.
 #pragma once
 
 #include <array>
 
+#include "interposer/engine/readback/read_states.h"
 #include "interposer/engine/source/context_version.h"
 #include "interposer/engine/source/gl_functions.h"
-#include "interposer/engine/readback/read_states.h"
 
 namespace tilepress {
 
-/// In the current, foreign context. Asks for and sets only what this context has, so no call raises an error.
+/// Works in the program's context, which is current. Queries and sets only what this context has, so no call
+/// raises an error.
 class NeutralReadState {
  public:
-  /// Reads come from `buffer` of framebuffer object `framebuffer`, 0 = the default framebuffer.
+  /// Reads take `buffer` of framebuffer object `framebuffer`; 0 is the default framebuffer.
   NeutralReadState(const GlFunctions& gl, const ContextVersion& version, GLuint framebuffer, GLenum buffer);
   ~NeutralReadState();
   NeutralReadState(const NeutralReadState&) = delete;
   NeutralReadState& operator=(const NeutralReadState&) = delete;
 
-  /// False if some state cannot be made neutral: the function is missing, or the program compiles a display
-  /// list, which the setter would go into.
+  /// False if some state cannot be made neutral: its function is missing, or the program compiles a display
+  /// list, which would record the setter.
   bool whole() const { return whole_; }
 
  private:
@@ -29,7 +30,7 @@ class NeutralReadState {
     GLint value;
     GLfloat real;
   };
-  /// Fills in what the program has set.
+  /// Fills in the program's value.
   bool is_neutral(Saved& saved);
   bool can_set(const read_state& state) const;
   void set_neutral(const read_state& state);

@@ -1,4 +1,4 @@
-// Pixel buffer groups: without a twin, a group serves a probe alone.
+// Pixel buffer groups: a group without a twin serves only a probe.
 #include "interposer/engine/readback/pixel_buffer_groups.h"
 
 #include <algorithm>

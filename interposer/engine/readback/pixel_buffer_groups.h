@@ -1,5 +1,5 @@
-// Pixel buffer groups: the pixel buffers of a source's private contexts, each group made when it is first
-// asked for.
+// Pixel buffer groups: the pixel buffers of a source's private contexts. The first use of a context makes its
+// group.
 #pragma once
 
 #include <functional>
@@ -17,13 +17,13 @@ namespace tilepress {
 class PixelBufferGroups {
  public:
   using MakeTwin = std::function<bool(TwinContext& twin)>;
-  /// The buffers of `own`, which is current, for a read in `way`: null where none are wanted or to be had.
-  /// For the first asynchronous read `make_twin` makes a context that shares with it, which `reader` tries
-  /// out.
+  /// Returns the buffers of `own`, which is current, for a read in `way`, or null if the way needs none or
+  /// there are none. Before the first asynchronous read, `make_twin` makes a context that shares with `own`,
+  /// and `reader` tries it out.
   std::shared_ptr<PixelBuffers> of_context(const void* own, ReadWay way, const GlFunctions& gl,
                                            const void* display, LateReader& reader,
                                            const MakeTwin& make_twin);
-  /// The context goes. Null if it has no buffers.
+  /// Takes out the buffers of a context that goes. Returns null if it has none.
   std::shared_ptr<PixelBuffers> take(const void* context);
   std::vector<std::shared_ptr<PixelBuffers>> of_display(const void* display);
 
@@ -37,7 +37,7 @@ class PixelBufferGroups {
   std::vector<Entry> entries_;
 };
 
-/// Lets the reader delete the buffers that are not in use. Does not wait.
+/// Makes the reader delete the buffers that are not in use. Does not wait.
 void trim_later(const std::vector<std::shared_ptr<PixelBuffers>>& groups, LateReader& reader);
 
 }  // namespace tilepress

@@ -1,25 +1,25 @@
-// Pixel buffers: a few buffer objects in turn. One that is made anew for each frame costs the driver more
-// than the read it saves.
+// Pixel buffers: a few buffer objects in turn. A new one for each frame would cost the driver more than the
+// read.
 #include "interposer/engine/readback/pixel_buffers.h"
 
 #include <GL/glext.h>
 
 #include <cstring>
 
-#include "interposer/engine/source/context_version.h"
 #include "interposer/engine/monotonic_clock.h"
+#include "interposer/engine/source/context_version.h"
 
 namespace tilepress {
 namespace {
 
 constexpr uint64_t kSliceNs = 100'000'000;
-constexpr int kSlices = 100;  // ten seconds: the graphics processor hangs
+constexpr int kSlices = 100;  // after ten seconds the graphics processor counts as hung
 
 bool has_extension(const GlFunctions& gl, const char* name) {
   const auto* all = reinterpret_cast<const char*>(gl.GetString(GL_EXTENSIONS));
   const bool found = all != nullptr && strstr(all, name) != nullptr;
   while (gl.GetError() != GL_NO_ERROR) {
-  }  // core profiles have no such string
+  }  // core profiles do not have the string
   return found;
 }
 

@@ -1,5 +1,4 @@
-// Pixel buffers: the buffer objects of one private context, into which frames are read without waiting for
-// them.
+// Pixel buffers: the buffer objects of one private context. Reads into them do not wait for the pixels.
 #pragma once
 
 #include <atomic>
@@ -9,8 +8,8 @@
 #include <mutex>
 #include <vector>
 
-#include "interposer/engine/source/gl_functions.h"
 #include "interposer/engine/readback/late_read.h"
+#include "interposer/engine/source/gl_functions.h"
 
 namespace tilepress {
 
@@ -21,32 +20,32 @@ struct TwinContext {
   std::function<void()> destroy;
 };
 
-/// Of a private context; the buffers die with it and its twin. "In the group" below: with either of the two
-/// current.
+/// Belongs to a private context, and the buffers die with that context and its twin. Members that say "in the
+/// group" need one of the two to be current.
 class PixelBuffers : public std::enable_shared_from_this<PixelBuffers> {
  public:
-  /// What a read writes: as glReadPixels has it.
+  /// Arguments of glReadPixels.
   struct Area {
     GLsizei width, height;
     GLenum format, type;
     size_t bytes;
   };
   PixelBuffers(const GlFunctions& gl, const void* display) : gl_(gl), display_(display) {}
-  /// True if the current context has buffers for pixels, and sync objects.
+  /// Returns true if the current context has pixel buffers and sync objects.
   static bool offered(const GlFunctions& gl);
 
-  /// Starts reading the current read buffer; in the private context. Null if that failed. `took_ns`: the time
-  /// of the read alone, the making of a buffer not counted.
+  /// Starts reading the current read buffer, in the private context. Returns null on failure. `took_ns` is
+  /// the time of the read, without that of making a buffer.
   std::unique_ptr<LateRead> begin(const Area& area, uint64_t& took_ns);
-  /// Waits for the pixels and copies them to `out`; in the group. False if they are lost.
+  /// Waits for the pixels and copies them to `out`, in the group. Returns false if they are lost.
   bool take(LateRead& read, std::byte* out);
-  /// Waits for the pixels and compares them; in the group.
+  /// Waits for the pixels and compares them, in the group.
   bool equals(LateRead& read, const std::byte* pixels);
-  /// Deletes the buffers that are not in use; in the group.
+  /// Deletes the buffers that are not in use, in the group.
   void trim();
 
   const void* display() const { return display_; }
-  /// Set on the presenting thread that has the private context, before the first late read.
+  /// Call it on the presenting thread that has the private context, before the first late read.
   void set_twin(TwinContext twin) { twin_ = std::move(twin); }
   const TwinContext* twin() const { return twin_.enter ? &twin_ : nullptr; }
   /// Something failed: no further reads.

@@ -1,19 +1,20 @@
-// Pixel memory: room for the pixels of a frame.
+// Pixel memory: memory for the pixels of a frame.
 #pragma once
 
 #include <cstddef>
 
 namespace tilepress {
 
-/// Mapped, not allocated: the program's allocator is its own affair. Huge pages are not asked for: frames are
-/// read into them no faster, and to get some takes a virtual machine longer than a program's first frames do.
+/// A mapping, so that the program's allocator stays out of it. Without huge pages: reads into them are no
+/// faster, and a virtual machine takes longer to provide them than a program to draw its first frames.
 class PixelMemory {
  public:
   PixelMemory() = default;
   PixelMemory(const PixelMemory&) = delete;
   PixelMemory& operator=(const PixelMemory&) = delete;
   ~PixelMemory() { unmap(); }
-  /// Room for `bytes` bytes, contents undefined, kept until more is asked for; null if there is no memory.
+  /// Returns room for `bytes` bytes with undefined contents, or null without memory. Keeps the memory for
+  /// later calls.
   std::byte* reserve(size_t bytes);
 
  private:

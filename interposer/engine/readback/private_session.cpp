@@ -62,8 +62,7 @@ Result<void> PrivateSession::read_swapped(const Binding& program, const Tilepres
   const uint64_t begin_ns = now_ns();
   if (swap && !api_.can_come_back(present))
     return unsupported("the drawable that the program reads from is destroyed");
-  if (swap && !api_.bind(swapped))
-    return unsupported("the drawable cannot be read in the program's context");
+  if (swap && !api_.bind(swapped)) return unsupported("the drawable cannot be read in the program's context");
   const uint64_t bound_ns = now_ns();
   const bool taken = read_in_program_context(gl_, drawable.shape, buffer, frame);
   const uint64_t taken_ns = now_ns();
@@ -97,7 +96,8 @@ Result<void> PrivateSession::read_privately(Binding program, const Drawable& dra
   if (bound && !api_.bind(program)) return not_back();
   frame.bind_ns = now_ns() - begin_ns - (taken_ns - bound_ns);
   if (own.context != nullptr) pool_.give(key, own.context);
-  if (!taken) return unsupported(bound ? "glReadPixels failed" : "the private context cannot be made current");
+  if (!taken)
+    return unsupported(bound ? "glReadPixels failed" : "the private context cannot be made current");
   return {};
 }
 

@@ -21,8 +21,8 @@ class PrivateSession {
   PrivateSession(ContextApi& api, const GlFunctions& gl, LateReader& reader, bool in_context_only)
       : api_(api), gl_(gl), reader_(reader), in_context_only_(in_context_only) {}
 
-  /// Reads the buffer that `present` shows. Starts in the program's context if `frame.way` is kInContext, else
-  /// in a private context, and falls back to the other. Updates `frame.way` to what was done.
+  /// Reads the buffer that `present` shows. Starts in the program's context if `frame.way` is kInContext,
+  /// else in a private context, and falls back to the other. Updates `frame.way` to what was done.
   Result<void> read(const TilepressPresent& present, const Drawable& drawable, CapturedFrame& frame);
   /// Reads `buffer` (GL_BACK, GL_FRONT, …) of the drawable in the program's context.
   Result<void> read_in_place(const TilepressPresent& present, const Drawable& drawable, GLenum buffer,

@@ -6,14 +6,15 @@
 // and
 //   transform feedback: drawing, clears and glBlitFramebuffer heed them, glReadPixels does not.
 // - Pixel zoom and raster position: glDrawPixels, glBitmap and glCopyPixels heed them.
-// - glPixelMap tables, colour tables, filters, histogram, minmax: unread while their switch below is off.
+// - glPixelMap tables, colour tables, filters, histogram, minmax: without effect while their switch below is
+// off.
 // - Render mode: glReadPixels is the same in GL_SELECT and GL_FEEDBACK.
 #pragma once
 
 /// How a state is saved and set.
 typedef enum {
-  kReadDisplayList,  ///< glGetIntegerv; never set. Unless it is 0, only kReadPack and kReadPackBuffer can be
-                     ///< set: other setters are compiled into the program's list
+  kReadDisplayList,   ///< glGetIntegerv; never set. Unless it is 0, only kReadPack and kReadPackBuffer can be
+                      ///< set: other setters are compiled into the program's list
   kReadCapability,    ///< glIsEnabled; glEnable, glDisable
   kReadPack,          ///< glGetIntegerv; glPixelStorei
   kReadTransfer,      ///< glGetIntegerv; glPixelTransferi
@@ -22,8 +23,8 @@ typedef enum {
   kReadClamp,         ///< glGetIntegerv; glClampColor
   kReadPackBuffer,    ///< glGetIntegerv; glBindBuffer(GL_PIXEL_PACK_BUFFER)
   kReadFramebuffer,   ///< glGetIntegerv; glBindFramebuffer. Neutral: what is read. Where reading and drawing
-                     ///< share one binding, GL_FRAMEBUFFER_BINDING
-  kReadBuffer,  ///< glGetIntegerv; glReadBuffer. Neutral: what is read
+                      ///< share one binding, GL_FRAMEBUFFER_BINDING
+  kReadBuffer,        ///< glGetIntegerv; glReadBuffer. Neutral: what is read
 } read_state_kind;
 
 /// A context has the state if its version is at least `desktop` or `embedded` (10 · major + minor, 0 = no
@@ -54,8 +55,9 @@ typedef struct {
 #define IMAGING_SWITCH(name, number) \
   { name, number, kReadCapability, 0, 0, 0, IMAGING, 1 }
 
-/// In the order in which they are set; they are put back in the reverse order. Debug output is off before any
-/// other changes, and a read buffer belongs to the framebuffer that is bound.
+/// In the order in which they are set. They are put back in the reverse order. Debug output comes first, so
+/// that no other change is reported. A read buffer comes after the framebuffer, because it belongs to the
+/// bound one.
 static const read_state kReadStates[] = {
     {"LIST_INDEX", 0x0B33, kReadDisplayList, 0, 10, 0, "", 1},
     {"DEBUG_OUTPUT", 0x92E0, kReadCapability, 0, 43, 32, "GL_KHR_debug", 0},

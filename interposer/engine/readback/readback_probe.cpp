@@ -1,4 +1,4 @@
-// Readback probe: medians, because single frames wait for other things too.
+// Readback probe: compares medians, because single frames wait for other things too.
 #include "interposer/engine/readback/readback_probe.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ bool ReadbackProbe::pays(const std::vector<uint64_t>& buffered_ns) const {
 
 bool ReadbackProbe::note(ReadWay way, uint64_t cost_ns, uint64_t buffered_cost_ns) {
   if (state_ == State::kChosenSync || state_ == State::kChosenAsync) return false;
-  // Asked for one thing, the source did another: there is no choice.
+  // The source took another way than it was given: there is no choice.
   if (way != next() || (way == ReadWay::kBoth && buffered_cost_ns == 0)) return settle(State::kChosenSync);
   switch (state_) {
     case State::kSync:
@@ -49,12 +49,12 @@ bool ReadbackProbe::note(ReadWay way, uint64_t cost_ns, uint64_t buffered_cost_n
       sync_ns_.push_back(cost_ns);
       return sync_ns_.size() == kSamples && settle(State::kBoth);
     case State::kBoth:
-      if (++passed_over_ == 1) return false;  // makes the buffer, and may compile something
+      if (++passed_over_ == 1) return false;  // the first one makes the buffer, and may compile something
       buffered_ns_.push_back(buffered_cost_ns);
       if (buffered_ns_.size() < kSamples) return false;
       return settle(pays(buffered_ns_) ? State::kTrial : State::kChosenSync);
     case State::kTrial:
-      if (++passed_over_ == 1) return false;  // makes the twin context
+      if (++passed_over_ == 1) return false;  // the first one makes the twin context
       trial_ns_.push_back(cost_ns);
       if (trial_ns_.size() < kSamples) return false;
       return settle(pays(trial_ns_) ? State::kChosenAsync : State::kChosenSync);

@@ -1,4 +1,4 @@
-// Readback probe: which way of reading costs a window's thread less, found out over its first frames.
+// Readback probe: measures over a window's first frames which way of reading costs its thread less.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,18 @@
 
 namespace tilepress {
 
-/// First some frames synchronously, then some both ways (their pixels are the synchronous ones). Asynchronous
-/// reads are chosen only by a clear margin, and have to keep what they promised over the first frames.
+/// Reads some frames synchronously, then some both ways (and keeps the synchronous pixels). Chooses
+/// asynchronous reads only by a clear margin, and only if they keep it over a trial.
 class ReadbackProbe {
  public:
   static constexpr size_t kWarmUp = 4, kSamples = 6;
-  static constexpr uint64_t kMarginNs = 100'000;  ///< worth a thread and a copy
+  static constexpr uint64_t kMarginNs = 100'000;  ///< pays for a thread and a copy
   static constexpr uint64_t kFactor = 2;          ///< how many times cheaper
 
   /// The way to read the next frame.
   ReadWay next() const;
-  /// What came of it: the way it was read, what that cost the thread, and of kBoth what the read into a pixel
-  /// buffer would have cost (0 = it cannot be done). True if this settled or changed the choice.
+  /// Notes the way taken and its cost on the thread. For kBoth, `buffered_cost_ns` is the cost of the read
+  /// into a pixel buffer (0 = that is not possible). Returns true if this settled or changed the choice.
   bool note(ReadWay way, uint64_t cost_ns, uint64_t buffered_cost_ns);
   /// "synchronous reads 0.20 ms, into pixel buffers 0.19 ms: synchronous".
   std::string text() const;

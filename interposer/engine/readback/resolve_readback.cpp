@@ -1,5 +1,5 @@
-// Resolve readback: calls glBlitFramebuffer, as a program would. The private context has none of the state that
-// a blit heeds: no scissor, no conditional rendering.
+// Resolve readback: calls glBlitFramebuffer, as a program would. The private context has none of the state
+// that a blit heeds: no scissor, no conditional rendering.
 #include "interposer/engine/readback/resolve_readback.h"
 
 #include <GL/glext.h>
@@ -10,8 +10,8 @@
 namespace tilepress {
 namespace {
 
-// Two framebuffers and a renderbuffer for one blit. They live no longer, because Mesa shares even the names of
-// framebuffers with the program.
+// Two framebuffers and a renderbuffer for one blit. They live no longer, because Mesa shares even the names
+// of framebuffers with the program.
 class ResolveObjects {
  public:
   explicit ResolveObjects(const GlFunctions& gl) : gl_(gl) {
@@ -125,8 +125,8 @@ Result<void> read_resolved(const GlFunctions& gl, const Attachment& attachment, 
 }
 
 BackBuffer::BackBuffer(const GlFunctions& gl, const SurfaceShape& shape) : gl_(gl) {
-  // Drivers have crashed on a read with READ_BUFFER = NONE. A fresh context has GL_BACK on a window, but perhaps
-  // not on other surfaces.
+  // Drivers have crashed on a read with READ_BUFFER = NONE. A fresh context has GL_BACK on a window, but
+  // perhaps not on other surfaces.
   if (gl.ReadBuffer != nullptr) gl.ReadBuffer(GL_BACK);
   GLint multisampled = 0;
   gl.GetIntegerv(GL_SAMPLE_BUFFERS, &multisampled);

@@ -8,14 +8,14 @@
 
 namespace tilepress {
 
-/// In a private context that shares the program's objects. Resolves the image into a single-sampled one of the
-/// same format and reads that into `frame`. Leaves no object behind.
+/// In a private context that shares the program's objects. Resolves the image into a single-sampled one of
+/// the same format and reads that into `frame`. Leaves no object behind.
 Result<void> read_resolved(const GlFunctions& gl, const Attachment& attachment, const SurfaceShape& shape,
                            CapturedFrame& frame);
 
-/// In a private context. While an object of this class lives, reads take the back buffer of the surface that is
-/// current. A multisampled surface is resolved first: Mesa's glReadPixels returns one sample of each pixel,
-/// while the window shows their mean.
+/// In a private context. While an object of this class lives, reads take the back buffer of the surface that
+/// is current. A multisampled surface is resolved first: Mesa's glReadPixels returns one sample of each
+/// pixel, while the window shows their mean.
 class BackBuffer {
  public:
   BackBuffer(const GlFunctions& gl, const SurfaceShape& shape);

@@ -1,4 +1,4 @@
-// Target watch: two marks per thread, because what is drawn to can change only by calls that are watched too.
+// Target watch: two marks per thread are enough, because only watched calls change what a thread draws to.
 #include "interposer/engine/readback/target_watch.h"
 
 #include <GL/glext.h>
@@ -12,8 +12,8 @@ namespace {
 // A bit per colour attachment of the framebuffer that the thread draws to.
 using Points = uint32_t;
 
-thread_local uint8_t drawn = 0;  // since the marks were taken last: to the draw buffers of this moment
-thread_local Points kept = 0;    // before, to draw buffers that the program has since chosen again
+thread_local uint8_t drawn = 0;  // drawn to the present draw buffers since they were chosen
+thread_local Points kept = 0;    // drawn to before that, and still attached
 
 Points bit_of(GLenum point) {
   return point >= GL_COLOR_ATTACHMENT0 && point < GL_COLOR_ATTACHMENT0 + 32
@@ -25,7 +25,7 @@ uint32_t number(const TilepressGlCall& call, int index) {
   return static_cast<uint32_t>(call.arguments[index]);
 }
 
-/// The array of `count` numbers that the arguments count at `index` and address behind it name.
+/// The array whose length is the argument at `index`, and whose address is the next argument.
 std::vector<uint32_t> list(const TilepressGlCall& call, int index) {
   const auto count = static_cast<int32_t>(number(call, index));
   const auto* first = reinterpret_cast<const uint32_t*>(call.arguments[index + 1]);
@@ -63,7 +63,7 @@ class DrawnFramebuffer {
     return found;
   }
 
-  /// Of what is drawn, the points that these images are attached to.
+  /// The drawn points that these images are attached to.
   Points points_of(bool textures, const std::vector<uint32_t>& names) const {
     Points points = 0;
     for (const Attachment& attachment : attachments(points_))
@@ -71,7 +71,7 @@ class DrawnFramebuffer {
     return points;
   }
 
-  /// The image that a call like glTexImage2D is about to make anew.
+  /// The points of the image that a call like glTexImage2D is about to replace.
   Points points_respecified(GLenum target) const {
     const bool texture = target != GL_RENDERBUFFER;
     const GLenum question = !texture                  ? GL_RENDERBUFFER_BINDING
@@ -91,7 +91,7 @@ class DrawnFramebuffer {
   Points points_;
 };
 
-/// Marks go on with `points`.
+/// Returns the images at `leaving`, and goes on with the marks at `staying`.
 std::vector<Attachment> leave(const DrawnFramebuffer& framebuffer, Points leaving, Points staying) {
   std::vector<Attachment> left = framebuffer.attachments(leaving);
   drawn = 0;

@@ -1,4 +1,4 @@
-// Target watch: which of its own images a thread has drawn to, and when it turns away from them.
+// Target watch: knows which images a thread has drawn to, and when the thread turns away from them.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,20 @@
 
 namespace tilepress {
 
-/// As TilepressEngine.drawn_mark: where the calling thread's draw calls leave their mark.
+/// TilepressEngine.drawn_mark: where the calling thread's draw calls leave their mark.
 uint8_t* drawn_mark();
 
-/// True if `call` can mean that the thread turns away from something it has drawn. Marks what draws. Calls no
-/// GL.
+/// Returns true if `call` can mean that the thread turns away from an image it has drawn to. Sets the mark if
+/// `call` draws. Calls no GL.
 bool concerns_targets(const TilepressGlCall& call);
 
-/// The images that the thread turns away from with `call`, in the context that is current: drawn to, and
-/// about to be no longer the bound framebuffer's draw buffers. Images that the program invalidates were never
-/// written to memory and are none of them. `context`: the one that is current.
+/// Returns the images that the thread turns away from with `call`: it has drawn to them, and after the call
+/// they are no longer draw buffers of the bound framebuffer. Leaves out images that the program invalidates,
+/// because they never reach memory. `context` is the context that is current.
 std::vector<Attachment> targets_left_by(const GlFunctions& gl, const TilepressGlCall& call,
                                         const void* context);
 
-/// The same where the program presents: all that is drawn.
+/// Returns all images that the thread has drawn to, for a present.
 std::vector<Attachment> targets_left(const GlFunctions& gl);
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Transfer: in which layout of glReadPixels the pixels of a format come as they are kept.
+// Transfer: the arguments of glReadPixels that return a format's pixels without a conversion.
 #pragma once
 
 #include <GL/gl.h>
@@ -17,9 +17,8 @@ struct Transfer {
   ByteOrder order;
 };
 
-/// `preferred_format` and `preferred_type` are what the implementation answers for the buffer that is bound
-/// (GL_IMPLEMENTATION_COLOR_READ_FORMAT and _TYPE), 0 where it is not asked: 8 bits a channel come in the
-/// order RGBA unless it prefers BGRA.
+/// `preferred_format` and `preferred_type` are GL_IMPLEMENTATION_COLOR_READ_FORMAT and _TYPE of the bound
+/// buffer, or 0. Pixels with 8 bits per channel come as RGBA unless the implementation prefers BGRA.
 inline Transfer transfer_of(PixelFormat format, GLint preferred_format, GLint preferred_type) {
   switch (format) {
     case PixelFormat::kRgb565:

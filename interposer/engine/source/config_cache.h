@@ -1,4 +1,5 @@
-// Config cache: the framebuffer configs seen so far. To find a config by its number, a driver sorts all of them.
+// Config cache: the framebuffer configs seen so far. To find a config by its number, a driver sorts all of
+// them.
 #pragma once
 
 #include <cstdint>

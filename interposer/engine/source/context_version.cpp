@@ -1,4 +1,4 @@
-// Context version: from the context's own strings.
+// Context version: parses the context's own strings.
 #include "interposer/engine/source/context_version.h"
 
 #include <cstdio>

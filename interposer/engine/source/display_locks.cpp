@@ -1,5 +1,4 @@
-// Display locks: Xlibint.h, whose macros should meet no other header, shows what extension libraries lock
-// with.
+// Display locks: Xlibint.h has the locks of a display. Its macros must not meet another header.
 #include "interposer/engine/source/display_locks.h"
 
 #include <X11/Xlibint.h>

@@ -5,7 +5,7 @@
 
 namespace tilepress {
 
-/// True if `display` was opened after XInitThreads (which libX11 calls by itself from 1.8 on).
+/// Returns true if `display` was opened after XInitThreads, which libX11 calls by itself from 1.8 on.
 bool has_locks(Display* display);
 
 }  // namespace tilepress

@@ -8,9 +8,9 @@ namespace tilepress {
 struct Drawable {
   WindowKey key{};
   SurfaceShape shape;
-  void* config = nullptr;        ///< EGLConfig or GLXFBConfig, valid as long as the display; null for OSMesa
-  bool double_buffered = true;   ///< GLX only: an EGL surface has a query of its own
-  bool multisampled = false;     ///< a read must resolve the drawable first
+  void* config = nullptr;       ///< EGLConfig or GLXFBConfig, valid as long as the display; null for OSMesa
+  bool double_buffered = true;  ///< GLX only: an EGL surface has a query of its own
+  bool multisampled = false;    ///< a read must resolve the drawable first
 };
 
 }  // namespace tilepress

@@ -1,5 +1,5 @@
-// Drawable size: GetGeometry and GetWindowAttributes through XCB, whose functions are looked up because the
-// engine links no X library.
+// Drawable size: GetGeometry and GetWindowAttributes through XCB. The engine links no X library and looks the
+// functions up.
 #include "interposer/engine/source/drawable_size.h"
 
 #include <GL/glx.h>
@@ -52,7 +52,7 @@ bool DrawableSize::query(Display* display, XID drawable, unsigned& width, unsign
 }
 
 bool DrawableSize::query_glx(Display* display, XID drawable, GlxDrawable& found) const {
-  // As in xcb/glx.h, which needs a package more to build with: behind the head come pairs of name and value.
+  // These types are in xcb/glx.h, which is in a package of its own. Pairs of name and value follow the reply.
   struct Cookie {
     unsigned sequence;
   };

@@ -1,5 +1,5 @@
-// Drawable size: the size of an X window or GLX drawable and what it was made for, asked so that no X error
-// can reach the program's error handler.
+// Drawable size: queries the size and config of an X window or GLX drawable. No X error reaches the program's
+// error handler.
 #pragma once
 
 #include <X11/Xlib.h>
@@ -10,21 +10,21 @@ struct xcb_connection_t;
 
 namespace tilepress {
 
-/// Uses XCB on the program's own connection: an error comes back with the reply instead of through Xlib's
+/// Uses XCB on the program's own connection. XCB returns an error with the reply, and not through Xlib's
 /// handler.
 class DrawableSize {
  public:
   explicit DrawableSize(const LibrarySymbols& library);
-  /// False if `drawable` is neither a window nor a pixmap of the server, or XCB is not to be had. `visual` is
-  /// a window's, else 0. One round trip to the server.
+  /// Returns false if `drawable` is neither a window nor a pixmap, or without XCB. `visual` is 0 for a
+  /// pixmap. One round trip to the server.
   bool query(Display* display, XID drawable, unsigned& width, unsigned& height, VisualID& visual) const;
 
   struct GlxDrawable {
     uint32_t width = 0, height = 0;
     uint32_t config = 0;  ///< GLX_FBCONFIG_ID
-    int screen = -1;      ///< -1: the server does not tell
+    int screen = -1;      ///< -1: unknown
   };
-  /// What the server knows of a GLX window or pbuffer; false if it is none. One round trip.
+  /// Returns false if `drawable` is neither a GLX window nor a pbuffer. One round trip to the server.
   bool query_glx(Display* display, XID drawable, GlxDrawable& found) const;
 
  private:

@@ -6,10 +6,12 @@
 
 #include "interposer/engine/source/library_symbols.h"
 
-#define TILEPRESS_EGL_FUNCTIONS(X)                                                                       \
-  X(BindAPI) X(ChooseConfig) X(CreateContext) X(DestroyContext) X(GetConfigAttrib) X(GetCurrentContext)  \
-  X(GetCurrentDisplay) X(GetCurrentSurface) X(GetError) X(GetProcAddress) X(MakeCurrent) X(QueryAPI)     \
+// clang-format off
+#define TILEPRESS_EGL_FUNCTIONS(X) \
+  X(BindAPI) X(ChooseConfig) X(CreateContext) X(DestroyContext) X(GetConfigAttrib) X(GetCurrentContext) \
+  X(GetCurrentDisplay) X(GetCurrentSurface) X(GetError) X(GetProcAddress) X(MakeCurrent) X(QueryAPI) \
   X(QueryContext) X(QueryString) X(QuerySurface)
+// clang-format on
 
 namespace tilepress {
 

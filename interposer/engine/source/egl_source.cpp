@@ -53,7 +53,8 @@ class EglSource final : public PresentSource, ContextApi {
                     config->multisampled};
   }
 
-  Result<void> read(const TilepressPresent& present, const Drawable& drawable, CapturedFrame& frame) override {
+  Result<void> read(const TilepressPresent& present, const Drawable& drawable,
+                    CapturedFrame& frame) override {
     return session_.read(present, drawable, frame);
   }
   Result<void> read_in_place(const TilepressPresent& present, const Drawable& drawable, GLenum buffer,
@@ -249,12 +250,10 @@ class EglSource final : public PresentSource, ContextApi {
 
   bool is_srgb(const TilepressPresent& present) const {
     const char* version = egl_.QueryString(present.display, EGL_VERSION);
-    const bool known =
-        holds(egl_.QueryString(present.display, EGL_EXTENSIONS), "EGL_KHR_gl_colorspace") ||
-        (version != nullptr && strncmp(version, "1.5", 3) == 0);
+    const bool known = holds(egl_.QueryString(present.display, EGL_EXTENSIONS), "EGL_KHR_gl_colorspace") ||
+                       (version != nullptr && strncmp(version, "1.5", 3) == 0);
     EGLint encoding = EGL_GL_COLORSPACE_LINEAR;
-    return known &&
-           egl_.QuerySurface(present.display, surface_of(present), EGL_GL_COLORSPACE, &encoding) &&
+    return known && egl_.QuerySurface(present.display, surface_of(present), EGL_GL_COLORSPACE, &encoding) &&
            encoding == EGL_GL_COLORSPACE_SRGB;
   }
 

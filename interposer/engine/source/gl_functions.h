@@ -1,4 +1,4 @@
-// GL functions: the few GL calls the readback makes, looked up through the program's own library.
+// GL functions: the GL calls of the readback, looked up in the program's own library.
 #pragma once
 
 #include <GL/gl.h>
@@ -9,7 +9,7 @@
 
 namespace tilepress {
 
-/// The first block is set, or the table is not usable; of the others any may be null.
+/// The functions of the first block are always set after load(). All others may be null.
 struct GlFunctions {
   const GLubyte* (*GetString)(GLenum) = nullptr;
   void (*GetIntegerv)(GLenum, GLint*) = nullptr;
@@ -53,7 +53,7 @@ struct GlFunctions {
   void (*GetTextureLevelParameteriv)(GLuint, GLint, GLenum, GLint*) = nullptr;  ///< OpenGL 4.5
   void (*GetNamedRenderbufferParameteriv)(GLuint, GLenum, GLint*) = nullptr;    ///< OpenGL 4.5
 
-  // Resolving a multisampled image takes all of these.
+  // A resolve of a multisampled image needs all of these.
   void (*GenFramebuffers)(GLsizei, GLuint*) = nullptr;
   void (*DeleteFramebuffers)(GLsizei, const GLuint*) = nullptr;
   void (*FramebufferRenderbuffer)(GLenum, GLenum, GLenum, GLuint) = nullptr;
@@ -66,7 +66,7 @@ struct GlFunctions {
                           GLenum) = nullptr;
 
   using Lookup = std::function<void*(const char*)>;
-  /// False if a function of the first block is missing.
+  /// Returns false if a function of the first block is missing.
   bool load(const Lookup& look_up);
 };
 

@@ -6,10 +6,12 @@
 
 #include "interposer/engine/source/library_symbols.h"
 
-#define TILEPRESS_GLX_FUNCTIONS(X)                                                                          \
-  X(ChooseFBConfig) X(CreateNewContext) X(DestroyContext) X(GetCurrentContext) X(GetCurrentDisplay)         \
-  X(GetCurrentDrawable) X(GetCurrentReadDrawable) X(GetFBConfigAttrib) X(GetProcAddressARB) X(IsDirect)     \
+// clang-format off
+#define TILEPRESS_GLX_FUNCTIONS(X) \
+  X(ChooseFBConfig) X(CreateNewContext) X(DestroyContext) X(GetCurrentContext) X(GetCurrentDisplay) \
+  X(GetCurrentDrawable) X(GetCurrentReadDrawable) X(GetFBConfigAttrib) X(GetProcAddressARB) X(IsDirect) \
   X(MakeContextCurrent) X(QueryContext) X(QueryDrawable)
+// clang-format on
 
 namespace tilepress {
 

@@ -21,10 +21,7 @@ class GlxSource final : public PresentSource, ContextApi {
  public:
   GlxSource(const GlxFunctions& glx, const GlFunctions& gl, const LibrarySymbols& library,
             const SourceSettings& settings)
-      : glx_(glx),
-        gl_(gl),
-        size_(library),
-        session_(*this, gl_, settings.reader, settings.in_context_only) {
+      : glx_(glx), gl_(gl), size_(library), session_(*this, gl_, settings.reader, settings.in_context_only) {
     DisplayEnds::instance().add([this](Display* display) {
       session_.forget(display);
       configs_.forget(display);
@@ -36,12 +33,13 @@ class GlxSource final : public PresentSource, ContextApi {
 
   Result<Drawable> describe(const TilepressPresent& present) override {
     const bool is_current =
-        glx_.GetCurrentContext() != nullptr && (glx_.GetCurrentDrawable() == present.surface ||
-                                                glx_.GetCurrentReadDrawable() == present.surface);
+        glx_.GetCurrentContext() != nullptr &&
+        (glx_.GetCurrentDrawable() == present.surface || glx_.GetCurrentReadDrawable() == present.surface);
     return is_current ? describe_current(present) : describe_idle(present);
   }
 
-  Result<void> read(const TilepressPresent& present, const Drawable& drawable, CapturedFrame& frame) override {
+  Result<void> read(const TilepressPresent& present, const Drawable& drawable,
+                    CapturedFrame& frame) override {
     return session_.read(present, drawable, frame);
   }
   Result<void> read_in_place(const TilepressPresent& present, const Drawable& drawable, GLenum buffer,
@@ -95,8 +93,7 @@ class GlxSource final : public PresentSource, ContextApi {
   void* create_private(const Drawable& drawable, const Binding& program) const override {
     auto* const display = static_cast<Display*>(const_cast<void*>(drawable.key.display));
     const auto context = static_cast<GLXContext>(program.context);
-    const Bool direct =
-        context == nullptr || glx_.IsDirect(static_cast<Display*>(program.display), context);
+    const Bool direct = context == nullptr || glx_.IsDirect(static_cast<Display*>(program.display), context);
     return glx_.CreateNewContext(display, static_cast<GLXFBConfig>(drawable.config), GLX_RGBA_TYPE, nullptr,
                                  direct);
   }
@@ -115,9 +112,8 @@ class GlxSource final : public PresentSource, ContextApi {
   bool create_twin(const Drawable& drawable, void* own, TwinContext& twin) const override {
     Display* const display = glx_.GetCurrentDisplay();
     if (!has_locks(display) || !glx_.IsDirect(display, static_cast<GLXContext>(own))) return false;
-    const GLXContext second =
-        glx_.CreateNewContext(display, static_cast<GLXFBConfig>(drawable.config), GLX_RGBA_TYPE,
-                              static_cast<GLXContext>(own), True);
+    const GLXContext second = glx_.CreateNewContext(display, static_cast<GLXFBConfig>(drawable.config),
+                                                    GLX_RGBA_TYPE, static_cast<GLXContext>(own), True);
     if (second == nullptr) return false;
     twin.enter = [=, this] { return bind({display, None, None, second}); };
     twin.leave = [=, this] { bind({display, None, None, nullptr}); };
@@ -174,8 +170,8 @@ class GlxSource final : public PresentSource, ContextApi {
             config.multisampled};
   }
 
-  /// A context that the program has destroyed lives on until something else is current. Mesa then answers None
-  /// for its number. The hooks may have seen its end too.
+  /// A context that the program has destroyed lives on until something else is current. Mesa then answers
+  /// None for its number. The hooks may have seen its end too.
   bool context_is_destroyed(const TilepressPresent& present) const {
     if (present.context_destroyed != 0) return true;
     return glx_.GetContextIDEXT != nullptr && glx_.GetCurrentContext() != nullptr &&

@@ -1,5 +1,5 @@
-// OSMesa source: describes the buffer of OSMesaMakeCurrent and reads it through GL. The buffer's memory is up to
-// date only after a flush of the program.
+// OSMesa source: describes the buffer of OSMesaMakeCurrent and reads it through GL. The buffer's memory is up
+// to date only after a flush of the program.
 #include <GL/gl.h>
 #include <GL/glext.h>
 
@@ -38,7 +38,8 @@ class OsmesaSource final : public PresentSource {
     return Drawable{{context(), 0}, {static_cast<uint32_t>(width), static_cast<uint32_t>(height), format()}};
   }
 
-  Result<void> read(const TilepressPresent& present, const Drawable& drawable, CapturedFrame& frame) override {
+  Result<void> read(const TilepressPresent& present, const Drawable& drawable,
+                    CapturedFrame& frame) override {
     return read_in_place(present, drawable, GL_FRONT, frame);
   }
 

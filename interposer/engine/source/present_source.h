@@ -40,8 +40,8 @@ class PresentSource {
   /// current again.
   virtual Result<void> beside(const TilepressPresent& present, const std::function<void()>& work) = 0;
 
-  /// Fills in what is current on the calling thread: the display, and the surface that the context draws to or
-  /// reads from. Returns false if no context of this API is current.
+  /// Fills in what is current on the calling thread: the display, and the surface that the context draws to
+  /// or reads from. Returns false if no context of this API is current.
   virtual bool find_current(TilepressPresent& present, FramebufferUse use) = 0;
   /// The context that is current on the calling thread, or null.
   virtual const void* context() const = 0;
@@ -70,8 +70,10 @@ struct SourceSettings {
 };
 
 /// Each returns null if the library that holds `present.real` lacks a function that the readback needs.
-std::unique_ptr<PresentSource> make_egl_source(const SourceSettings& settings, const TilepressPresent& present);
-std::unique_ptr<PresentSource> make_glx_source(const SourceSettings& settings, const TilepressPresent& present);
+std::unique_ptr<PresentSource> make_egl_source(const SourceSettings& settings,
+                                               const TilepressPresent& present);
+std::unique_ptr<PresentSource> make_glx_source(const SourceSettings& settings,
+                                               const TilepressPresent& present);
 std::unique_ptr<PresentSource> make_osmesa_source(const SourceSettings& settings,
                                                   const TilepressPresent& present);
 

@@ -142,7 +142,8 @@ CaptureWorker::Surface* CaptureWorker::known_surface(const CapturedFrame& frame)
 
 Result<void> CaptureWorker::process(const CapturedFrame& frame) {
   Surface* surface = known_surface(frame);
-  // The first frame of a surface allocates its memory: always on this thread, or it would come from two heaps.
+  // The first frame of a surface allocates its memory: always on this thread, or it would come from two
+  // heaps.
   const bool may_yield = options_.on_full == OnFull::kBlock && surface != nullptr;
   if (surface == nullptr) {
     if (Result<void> done = tables_.append_surface(frame); !done) return done;

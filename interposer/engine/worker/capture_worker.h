@@ -24,7 +24,8 @@
 
 namespace tilepress {
 
-/// Owns the run directory, and creates it at the first present. A process that presents nothing leaves no trace.
+/// Owns the run directory, and creates it at the first present. A process that presents nothing leaves no
+/// trace.
 class CaptureWorker {
  public:
   CaptureWorker(const RunOptions& options, const RunInfo& info, CaptureCounts& counts, ShimLog& log);
@@ -33,11 +34,11 @@ class CaptureWorker {
   FrameQueue& queue() { return queue_; }
   /// Writes out all pending frames, and ends the run and the thread. Does nothing if that is not safe.
   void finish();
-  /// True after finish(). Frames that are presented later are counted and not read: Mesa frees tables in an exit
-  /// handler of its own, and its glReadPixels would read what is freed.
+  /// True after finish(). Frames that are presented later are counted and not read: Mesa frees tables in an
+  /// exit handler of its own, and its glReadPixels would read what is freed.
   bool ended() const { return ended_; }
-  /// Call it after each present. After the first one it waits for the run folder, so that the run outlives the
-  /// program from then on. After finish() it writes the counts.
+  /// Call it after each present. After the first one it waits for the run folder, so that the run outlives
+  /// the program from then on. After finish() it writes the counts.
   void presented();
   /// False once the run cannot be written (full disk, unwritable folder).
   bool alive() const { return alive_.load(std::memory_order_relaxed); }

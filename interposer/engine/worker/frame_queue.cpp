@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint64_t kSecond = 1'000'000'000;
 constexpr uint64_t kPatience = 2 * kSecond;
-constexpr uint64_t kLook = kSecond / 10;  ///< how often the worker looks whether the program is gone
+constexpr uint64_t kLook = kSecond / 10;  ///< how often the worker checks whether the program is gone
 
 }  // namespace
 
@@ -70,7 +70,7 @@ void FrameQueue::submit(CapturedFrame* frame) {
     const Lock lock(mutex_);
     ready_.append(frame);
     ++pending_;
-    frame->hand_off_ns = now_ns() - begin_ns;  // under the lock: later the worker may have it
+    frame->hand_off_ns = now_ns() - begin_ns;  // under the lock: after it, the worker may have the frame
   }
   changed_.notify_all();
 }
@@ -102,7 +102,7 @@ void FrameQueue::wake() {
 
 FrameQueue::Lock FrameQueue::lock_of_worker() {
   if (!program_gone_) return Lock(mutex_);
-  // A thread that is gone may have been inside. One that is about to go leaves the processor at once.
+  // A thread that is gone may have held the lock. A thread that is about to go leaves the processor at once.
   while (!mutex_.try_lock_for(kSecond)) {
     if (!program_gone_()) continue;
     mutex_.take_over();

@@ -1,4 +1,4 @@
-// Frame queue: hands captured frames from the program's threads to the worker, a bounded number at a time.
+// Frame queue: hands captured frames from the program's threads to the worker.
 #pragma once
 
 #include <atomic>
@@ -11,48 +11,48 @@
 
 namespace tilepress {
 
-/// The bound counts frames the worker has not finished, not those being filled: a program whose threads wait
-/// for each other's presents cannot be held up by a frame that none of them can finish.
+/// The bound counts the frames that the worker has not finished, and not those being filled. So a program
+/// whose threads wait for each other's presents never waits for a frame that none of them can finish.
 class FrameQueue {
  public:
-  /// `program_gone`: for a worker that outlives the program. True once no other thread uses the queue.
+  /// `program_gone` returns true once no thread of the program is left that uses the queue.
   explicit FrameQueue(uint32_t depth, std::function<bool()> program_gone = {})
       : depth_(depth), program_gone_(std::move(program_gone)) {}
   FrameQueue(const FrameQueue&) = delete;
   FrameQueue& operator=(const FrameQueue&) = delete;
   ~FrameQueue();
 
-  /// A frame to fill. When `depth` frames are pending: waits if `wait`, else returns null. Null also after
-  /// close().
+  /// Returns a frame to fill, or null after close(). If `depth` frames are pending, waits for room, or
+  /// returns null without `wait`.
   CapturedFrame* acquire(bool wait);
   void submit(CapturedFrame* frame);    ///< presented, and filled or awaited
-  void submit_end_of(uint32_t window);  ///< the window presents no more; never waits
+  void submit_end_of(uint32_t window);  ///< the window is gone; never waits
   void release(CapturedFrame* frame);   ///< back unused, or done with
   void wake();                          ///< makes next() return
-  /// The pixels of an awaited frame are there, or will never be. It may be submitted or released before or
-  /// after.
+  /// The pixels of an awaited frame have arrived, or are lost. The frame may be submitted or released before
+  /// or after.
   void arrived(CapturedFrame* frame, bool whole);
 
-  /// The worker's side: the next frame, or null after wake() or once closed and empty. Waits for one that is
-  /// awaited; once closed for two seconds, then it is lost. Closes the queue when the program is gone: what
-  /// is awaited is lost then.
+  /// The worker's side. Returns the next frame, or null after wake() or once the queue is closed and empty.
+  /// Waits for an awaited frame, but for two seconds at most in a closed queue: then the frame is lost. If
+  /// the program is gone, closes the queue, and awaited frames are lost.
   CapturedFrame* next();
   void done(CapturedFrame* frame);
 
-  /// No more frames; what is pending is still handed out. Gives up, returning false, if the lock cannot be
-  /// had within a second: the caller may be a signal handler on top of a thread that holds it.
+  /// Takes no more frames. next() still returns the pending ones. Returns false if the lock is not free
+  /// within a second: the caller may be a signal handler on top of the thread that holds it.
   bool close();
   bool closed_and_empty();
   bool closed() const { return closed_; }
   uint32_t depth() const { return depth_; }
   /// Frames submitted that the worker has not finished. Takes no lock: a thread that yields to all others
-  /// must not hold one that they wait for.
+  /// must not hold a lock that they wait for.
   uint32_t pending() const { return pending_; }
-  /// As many as the bound: who acquires a frame now has to wait, or gets none.
+  /// True if acquire() would wait or return null now.
   bool full() const { return pending() >= depth_; }
 
  private:
-  /// Frames in a row. A thread that is gone may have stopped at any line: the list is whole all the same.
+  /// A linked list that stays whole even if a thread ends at any line of its code.
   struct List {
     CapturedFrame* first = nullptr;
     CapturedFrame* last = nullptr;
@@ -74,7 +74,7 @@ class FrameQueue {
   std::atomic<uint32_t> pending_ = 0;  ///< changes under the lock
   std::atomic<bool> closed_ = false;   ///< the same
   bool woken_ = false;
-  bool abandoned_ = false;  ///< by the program
+  bool abandoned_ = false;  ///< the program is gone
 };
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Own thread: the stack is a mapping of the usual size, with a page beneath it that ends an overflow.
+// Own thread: the stack is a mapping of the usual size above a guard page.
 #include "interposer/engine/worker/own_thread.h"
 
 #include <signal.h>
@@ -8,8 +8,8 @@
 #include <utility>
 
 #if !defined(__SANITIZE_THREAD__)
-// A program of the thread sanitizer defines these. The sanitizer does not see how the driver's threads synchronize
-// and would report what this library calls in the driver as races.
+// A program of the thread sanitizer defines these. The sanitizer does not see how the driver's threads
+// synchronize, and would report our calls into the driver as races.
 extern "C" {
 [[gnu::weak]] void AnnotateIgnoreReadsBegin(const char* file, int line);
 [[gnu::weak]] void AnnotateIgnoreReadsEnd(const char* file, int line);
@@ -21,7 +21,7 @@ extern "C" {
 namespace tilepress {
 namespace {
 
-/// While it lives, the thread sanitizer of the program looks past this thread.
+/// While an object lives, the program's thread sanitizer ignores this thread.
 struct IgnoredRaces {
 #if !defined(__SANITIZE_THREAD__)
   IgnoredRaces() {

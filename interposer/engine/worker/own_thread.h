@@ -1,4 +1,4 @@
-// Own thread: a thread of the shim, on a stack that was never another's.
+// Own thread: a thread of the shim, on a stack that no other thread has had.
 #pragma once
 
 #include <pthread.h>
@@ -7,20 +7,20 @@
 
 namespace tilepress {
 
-/// In a forked child the C library gives the stacks of threads that are no more to new ones, and with the
-/// stack a thread's handle: a driver that joins its own threads when the child ends would join one of ours
-/// and wait for good. So ours bring their stacks along.
+/// In a forked child the C library reuses the stacks of the parent's threads for new ones, and with a stack
+/// its thread's handle. A driver that joins its own threads at the child's end would then wait for one of
+/// ours. So our threads bring their own stacks.
 class OwnThread {
  public:
   OwnThread() = default;
   OwnThread(const OwnThread&) = delete;
   OwnThread& operator=(const OwnThread&) = delete;
   ~OwnThread() { join(); }
-  /// Runs `work` on the thread, with all signals blocked. False if the system gives none.
+  /// Runs `work` on the thread, with all signals blocked. Returns false if the system has no thread left.
   bool start(const char* name, std::function<void()> work);
   bool started() const { return stack_ != nullptr; }
   bool is_current() const { return started() && pthread_equal(thread_, pthread_self()) != 0; }
-  /// Waits for its end. It may be started again then.
+  /// Waits for the thread to end. start() may follow.
   void join();
 
  private:

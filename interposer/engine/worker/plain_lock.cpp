@@ -1,4 +1,4 @@
-// Plain lock: the futex mutex with three states, and a condition that counts its turns.
+// Plain lock: a futex mutex with three states, and a condition that counts its notifications.
 #include "interposer/engine/worker/plain_lock.h"
 
 #include <linux/futex.h>
@@ -14,7 +14,8 @@ namespace {
 
 void wait_while(const std::atomic<uint32_t>& word, uint32_t value, uint64_t patience_ns) {
   constexpr uint64_t kSecond = 1'000'000'000;
-  const timespec limit = {static_cast<time_t>(patience_ns / kSecond), static_cast<long>(patience_ns % kSecond)};
+  const timespec limit = {static_cast<time_t>(patience_ns / kSecond),
+                          static_cast<long>(patience_ns % kSecond)};
   system_call(SYS_futex, address_of(&word), FUTEX_WAIT_PRIVATE, value,
               patience_ns == PlainCondition::kForever ? 0 : address_of(&limit));
 }

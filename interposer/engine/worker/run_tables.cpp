@@ -35,11 +35,10 @@ Result<void> RunTables::create(const std::string& path) {
 }
 
 Result<void> RunTables::append_present(const CapturedFrame& frame) {
-  return presents_.append(
-      line_of(present_columns(),
-              PresentRow{frame.frame, frame.surface, frame.readback_ns, frame.read_ns, frame.wait_ns,
-                         frame.damage, frame.bind_ns, frame.hand_off_ns, frame.interval_ns, frame.cause,
-                         name_of(frame.way)}));
+  return presents_.append(line_of(
+      present_columns(),
+      PresentRow{frame.frame, frame.surface, frame.readback_ns, frame.read_ns, frame.wait_ns, frame.damage,
+                 frame.bind_ns, frame.hand_off_ns, frame.interval_ns, frame.cause, name_of(frame.way)}));
 }
 
 Result<void> RunTables::append_surface(const CapturedFrame& frame) {

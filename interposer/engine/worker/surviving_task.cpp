@@ -1,4 +1,4 @@
-// Surviving task: clone without CLONE_THREAD, all by system calls that no library replaces.
+// Surviving task: clone without CLONE_THREAD, through system calls that no library replaces.
 #include "interposer/engine/worker/surviving_task.h"
 
 #include <dlfcn.h>
@@ -20,7 +20,7 @@
 
 namespace tilepress {
 
-/// What the assembly reads: the order of the members is fixed.
+/// The assembly reads it, so the order of the members is fixed.
 struct TaskStart {
   void (*work)(void* argument);
   void* argument;
@@ -45,12 +45,12 @@ namespace {
 constexpr size_t kParkingBytes = size_t{64} << 10;
 constexpr long kSignalBytes = sizeof(uint64_t);
 constexpr long kWatchdogSeconds = 30;
-// A tracer is not told of the task: to a debugger it would look like a thread of the program.
+// Hides the task from a tracer: a debugger would take it for a thread of the program.
 constexpr unsigned long kCloneFlags = CLONE_VM | CLONE_UNTRACED;
 
-std::atomic<bool> ended_by_signal{false};  ///< set by the signal that says that the program is gone
+std::atomic<bool> ended_by_signal{false};  ///< the kernel has sent the signal of the program's end
 
-/// As the kernel has it, which differs from the C library's.
+/// The kernel's sigaction, which differs from the C library's.
 struct KernelSignalAction {
   void (*handler)(int);
   unsigned long flags;
@@ -89,21 +89,21 @@ void handle_program_end() {
   system_call(SYS_prctl, PR_SET_PDEATHSIG, kProgramEnd);
 }
 
-/// The table is a copy: no pipe or socket of the program may stay open because of it.
+/// The table is a copy. No pipe or socket of the program may stay open because of the copy.
 void close_descriptors() {
   constexpr long kCloseRange = 436;
   constexpr int kLikely = 1 << 16;
   if (system_call(kCloseRange, 0, UINT_MAX) < 0)
     for (int file = 0; file < kLikely; ++file) system_call(SYS_close, file);
-  // Nothing of ours may get the numbers of the standard streams.
+  // No file of ours may get the number of a standard stream.
   const long nowhere = system_call(SYS_openat, AT_FDCWD, address_of("/dev/null"), O_RDWR);
   if (nowhere < 0) return;
   system_call(SYS_dup3, nowhere, 1, 0);
   system_call(SYS_dup3, nowhere, 2, 0);
 }
 
-/// Allocators keep memory by processor and trust the kernel's word on which one a thread is (rseq). The
-/// registration goes with the thread-local memory: from the thread to the task, and back.
+/// Allocators keep memory per processor and learn the thread's processor from the kernel (rseq). The
+/// registration moves with the thread-local memory: from the thread to the task, and back.
 class RestartableSequences {
  public:
   RestartableSequences() {
@@ -131,15 +131,17 @@ class RestartableSequences {
       -1;
 #endif
   static constexpr long kBytes = 32;
-  long call(long flags) const { return system_call(kNumber, address_of(area_), kBytes, flags, kSignature); }
+  long call(long flags) const {
+    return system_call(kNumber, address_of(area_), kBytes, flags, kSignature);
+  }
   char* area_ = nullptr;
 };
 
-/// Null if a task may be tried.
+/// Returns null if a task may be tried.
 const char* known_obstacle() {
-  // Sandboxes end a process for a clone that they do not know.
+  // A sandbox may kill a process for an unknown kind of clone.
   if (system_call(SYS_prctl, PR_GET_SECCOMP) != 0) return "a seccomp filter is installed";
-  // Valgrind gives up on one. It preloads a library of its own into every program.
+  // Valgrind does not support such a task. It preloads a library of its own into every program.
   const char* preloaded = std::getenv("LD_PRELOAD");
   if (preloaded != nullptr && std::strstr(preloaded, "/vgpreload_") != nullptr) return "under Valgrind";
   return nullptr;
@@ -196,7 +198,7 @@ void SurvivingTask::run(const std::function<void()>& work) {
 
 bool SurvivingTask::program_gone() const {
   if (!in_task_) return false;
-  // The signal does not come if the program has given its rights away since.
+  // The signal does not come if the program has dropped privileges since.
   return ended_by_signal.load(std::memory_order_relaxed) ||
          system_call(SYS_tgkill, program_, thread_, 0) == -ESRCH;
 }

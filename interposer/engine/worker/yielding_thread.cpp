@@ -1,4 +1,4 @@
-// Yielding thread: a lock, a condition, a thread of the idle class.
+// Yielding thread: waits for work on a condition.
 #include "interposer/engine/worker/yielding_thread.h"
 
 #include <sched.h>
@@ -41,7 +41,7 @@ YieldingThread::Turn YieldingThread::run(const std::function<void()>& work) {
 
 void YieldingThread::serve() {
   const sched_param none{};
-  sched_setscheduler(0, SCHED_IDLE, &none);  // on Linux: of this thread
+  sched_setscheduler(0, SCHED_IDLE, &none);  // on Linux this sets the calling thread's class
   std::unique_lock lock(mutex_);
   for (;;) {
     while (work_ == nullptr && !ended_) changed_.wait(lock);

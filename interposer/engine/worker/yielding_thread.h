@@ -1,4 +1,4 @@
-// Yielding thread: runs one piece of work at a time, when the machine has nothing more urgent to do.
+// Yielding thread: runs work in the idle class, one piece at a time.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace tilepress {
 
-/// A thread that gets the cores nobody else wants (SCHED_IDLE): others are scheduled as if it were not there.
-/// One that lowers its own priority may not raise it again without privileges, so work that is to be done at
-/// either priority needs a thread for each. `work` must hold no lock that others may wait for.
+/// A thread of the class SCHED_IDLE gets only cores that no other thread wants. A thread that lowers its
+/// priority may not raise it again without privileges, so each of the two priorities needs a thread of its
+/// own. `work` must hold no lock that others may wait for.
 class YieldingThread {
  public:
   struct Turn {
     uint64_t wall_ns = 0, cpu_ns = 0;
   };
   ~YieldingThread() { end(); }
-  /// Has `work` done and waits for it; what it throws is thrown here. Starts the thread, with all
-  /// signals blocked, at first use; works itself where the system gives no thread.
+  /// Runs `work` on the thread and waits for it. Rethrows what `work` throws. The first call starts the
+  /// thread, with all signals blocked. Without a thread, runs `work` on the calling one.
   Turn run(const std::function<void()>& work);
   void end();
 
