@@ -1,5 +1,5 @@
 // Registry: the schemes in the order users see them.
-#include "scheme_factory.h"
+#include "registry.h"
 
 namespace tilepress {
 namespace {

@@ -22,7 +22,7 @@ std::optional<Number> parse_number(std::string_view text, Number low, Number hig
 
 std::vector<std::string_view> choices_of(const SchemeKey& key) {
   std::vector<std::string_view> choices;
-  for (std::string_view rest = key.values;;) {
+  for (std::string_view rest = key.choices;;) {
     const size_t comma = rest.find(", ");
     choices.push_back(rest.substr(0, comma));
     if (comma == std::string_view::npos) return choices;
@@ -52,6 +52,35 @@ std::string rule_of(const SchemeKey& key) {
     text += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + std::string(choices[i]);
   return text;
 }
+
+}  // namespace
+
+std::string SchemeKey::values() const {
+  if (help_values != nullptr) return help_values;
+  const std::string first = std::to_string(low),
+                    last = high == kLargestNumber ? "" : " " + std::to_string(high);
+  switch (kind) {
+    case KeyKind::kNumber:
+      return first + " ..." + last;
+    case KeyKind::kPowerOfTwo:
+      return first + ", " + std::to_string(2 * low) + ", " + std::to_string(4 * low) + " ..." + last;
+    case KeyKind::kShare:
+      return "0 ... 1";
+    case KeyKind::kChoice:
+      return choices;
+    case KeyKind::kFile:
+      break;
+  }
+  return "a path";
+}
+
+std::string SchemeKey::default_value() const {
+  if (help_initial != nullptr) return help_initial;
+  if (kind == KeyKind::kFile) return "";
+  return kind == KeyKind::kChoice ? std::string(choices_of(*this)[initial]) : std::to_string(initial);
+}
+
+namespace {
 
 SchemeValue initial_value(const SchemeKey& key) {
   if (key.kind == KeyKind::kShare) return 0.0;

@@ -17,8 +17,10 @@ void print_json() {
   for (const SchemeInfo& scheme : scheme_registry()) {
     nlohmann::ordered_json keys = nlohmann::ordered_json::array();
     for (const SchemeKey& key : scheme.keys)
-      keys.push_back(
-          {{"name", key.name}, {"values", key.values}, {"default", key.standard}, {"summary", key.summary}});
+      keys.push_back({{"name", key.name},
+                      {"values", key.values()},
+                      {"default", key.default_value()},
+                      {"summary", key.summary}});
     list.push_back({{"name", scheme.name},
                     {"label", scheme.label},
                     {"summary", scheme.summary},
@@ -40,7 +42,8 @@ void print_text() {
   for (const SchemeInfo& scheme : scheme_registry())
     for (const SchemeKey& key : scheme.keys)
       if (printed.insert(key.name).second)
-        std::printf("  %-9s %-23s %-8s %s\n", key.name, key.values, key.standard, key.summary);
+        std::printf("  %-9s %-23s %-8s %s\n", key.name, key.values().c_str(), key.default_value().c_str(),
+                    key.summary);
   std::printf(
       "\nWrite a scheme as name:key=value,key=value, for example -s vdcp:fvc=128,policy=2lfc\n");
 }

@@ -25,7 +25,7 @@
 
 #include "pixels/memory_lines.h"
 #include "pixels/raw_bits.h"
-#include "scheme_factory.h"
+#include "registry.h"
 
 namespace tilepress {
 namespace {
@@ -151,17 +151,16 @@ class BdiEncoder final : public BlockEncoder {
   BdiEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions&)
       : order_(line_order(spec)), pixel_bits_(format.pixel_bits) {}
 
-  SchemeNeeds needs() const override { return {.raster = true, .raster_to_encode = true}; }
   uint32_t csb_bits() const override { return kBlockPixels * pixel_bits_ / 512 * kCodeBits; }
   uint32_t measure(const BlockContext& block) const override {
-    const LineWords lines = to_line_words(block.block, order_, pixel_bits_);
+    const LineWords lines = to_line_words(block.raster(), order_, pixel_bits_);
     if (block.uniform) return lines.count / kLineWords * code_bits(choose_code(lines.words.data()));
     uint32_t bits = 0;
     for (uint32_t i = 0; i < lines.count; i += kLineWords) bits += code_bits(choose_code(&lines.words[i]));
     return bits;
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
-    const LineWords lines = to_line_words(block.block, order_, pixel_bits_);
+    const LineWords lines = to_line_words(block.raster(), order_, pixel_bits_);
     for (uint32_t i = 0; i < lines.count; i += kLineWords) {
       const uint32_t code = choose_code(&lines.words[i]);
       csb.put(code, kCodeBits);

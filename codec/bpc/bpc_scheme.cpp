@@ -12,7 +12,7 @@
 // Two 16-bit pixels make a word.
 #include "bpc/bpc_line.h"
 #include "pixels/memory_lines.h"
-#include "scheme_factory.h"
+#include "registry.h"
 
 namespace tilepress {
 namespace {
@@ -41,17 +41,16 @@ class BpcEncoder final : public BlockEncoder {
   BpcEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions&)
       : coder_(spec, format) {}
 
-  SchemeNeeds needs() const override { return {.raster = true, .raster_to_encode = true}; }
   uint32_t csb_bits() const override { return coder_.lines * kSizeBits; }
   uint32_t measure(const BlockContext& block) const override {
-    const LineWords lines = to_line_words(block.block, coder_.order, coder_.pixel_bits);
+    const LineWords lines = to_line_words(block.raster(), coder_.order, coder_.pixel_bits);
     if (block.uniform) return coder_.lines * line_bits(lines.words.data());
     uint32_t bits = 0;
     for (uint32_t i = 0; i < lines.count; i += kBpcWords) bits += line_bits(&lines.words[i]);
     return bits;
   }
   void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const override {
-    const LineWords lines = to_line_words(block.block, coder_.order, coder_.pixel_bits);
+    const LineWords lines = to_line_words(block.raster(), coder_.order, coder_.pixel_bits);
     for (uint32_t i = 0; i < lines.count; i += kBpcWords) {
       const uint32_t bytes = line_bytes(&lines.words[i]);
       csb.put(bytes, kSizeBits);

@@ -10,7 +10,7 @@
 #include "dcp/algorithm1.h"
 #include "dcp/dcp_family.h"
 #include "dcp/sub_blocks.h"
-#include "scheme_factory.h"
+#include "registry.h"
 
 namespace tilepress {
 namespace {

@@ -3,7 +3,7 @@
 //   CSB, payload, tables    see dictionary/huffman_blocks.h; N slots
 #include "dcp/dcp_family.h"
 #include "dictionary/huffman_blocks.h"
-#include "scheme_factory.h"
+#include "registry.h"
 
 namespace tilepress {
 namespace {

@@ -6,7 +6,7 @@
 //   tables    N rCCD slots
 #include "dcp/dcp_family.h"
 #include "dcp/sub_blocks.h"
-#include "scheme_factory.h"
+#include "registry.h"
 
 namespace tilepress {
 namespace {

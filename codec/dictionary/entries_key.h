@@ -8,8 +8,6 @@ namespace tilepress {
 
 inline constexpr SchemeKey kEntriesKey = {.name = "entries",
                                           .kind = KeyKind::kPowerOfTwo,
-                                          .values = "2, 4, 8 ... 1024",
-                                          .standard = "64",
                                           .summary = "colours of the dictionary",
                                           .low = 2,
                                           .high = kMostColors,

@@ -38,7 +38,7 @@ class BlockCheck {
     BitReader payload_in(payload_, payload_bits), csb_in(csb_, csb.bit_count());
     Block decoded;
     decoded.pixels.fill(0xDEADBEEF);  // an earlier block must not pass as this one
-    return decoder.decode_at(block.bx, block.by, csb_in, payload_in, decoded) && decoded == block.block &&
+    return decoder.decode_at(block.bx, block.by, csb_in, payload_in, decoded) && decoded == block.raster() &&
            payload_in.position() == payload_bits;
   }
 

@@ -21,8 +21,6 @@ void Lanes::open(std::span<const SchemeSpec> specs, const ModelOptions& options,
     needs_.first_frame |= needs.first_frame;
     needs_.whole_frame |= needs.whole_frame;
     needs_.place |= needs.place;
-    needs_.raster |= needs.raster || options.verify;
-    needs_.raster_to_encode |= needs.raster_to_encode;
     lanes_.push_back(std::move(lane));
   }
 }

@@ -24,8 +24,6 @@ class Lanes {
   /// `surfaces` are where the frame is stored; empty if it is not. `block_bits` may be null.
   void begin_frame(const FrameContext& frame, std::span<CompressedSurface> surfaces, BlockBits* block_bits,
                    std::vector<SchemeStatistics>& out);
-  /// True if encode() or measure() reads the raster in this frame.
-  bool reads_raster() const { return needs_.raster || (needs_.raster_to_encode && stores_); }
   /// Takes a block. The figures of a block of one colour are kept at `place`.
   void take(const BlockContext& block, uint32_t place);
   /// Takes `count` blocks side by side that repeat the block kept at `place`. Their figures count at

@@ -120,8 +120,7 @@ void SurfaceEngine::State::take_tiles() {
 
 void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by) {
   alignas(64) uint32_t pixels[kBlockPixels];
-  Block raster;
-  BlockContext block{.block = raster, .bx = bx, .by = by, .pixels = pixels};
+  BlockContext block{.bx = bx, .by = by, .pixels = pixels};
   block.uniform = collectors.load(source.block(bx, by), source.plane().stride(), pixels);
   if (!block.uniform) {
     runs.leave();
@@ -132,7 +131,6 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by) {
     runs.hold(pixels[0]);
     collectors.look_up_solid(pixels);
   }
-  if (lanes.reads_raster()) source.plane().load_block(bx, by, raster);
   for (BlockAnalysis* analysis : per_block) analysis->see_block(block);
   lanes.take(block, runs.place());
   collect(block);

@@ -14,7 +14,7 @@
 #include "dictionary/entries_key.h"
 #include "dictionary/frequent_colors.h"
 #include "dictionary/huffman_blocks.h"
-#include "scheme_factory.h"
+#include "registry.h"
 
 namespace tilepress {
 namespace {

@@ -9,7 +9,7 @@
 #include "dcp/sub_blocks.h"
 #include "ras/ras_bits.h"
 #include "ras/ras_block.h"
-#include "scheme_factory.h"
+#include "registry.h"
 
 namespace tilepress {
 namespace {
@@ -27,7 +27,6 @@ class HdcpEncoder final : public DcpFamilyEncoder {
         format_(format),
         classes_{RasSizes::kThree, kBlockPixels * format.pixel_bits, model.burst_bits} {}
 
-  SchemeNeeds needs() const override { return {.raster_to_encode = true}; }
   void subscribe(SharedAnalyses& analyses) override {
     DcpFamilyEncoder::subscribe(analyses);
     ras_bits_ = &analyses.get<RasBits>().subscribe(false);

@@ -22,7 +22,7 @@
 #include "dictionary/frequent_colors.h"
 #include "palette/palette_file.h"
 #include "pixels/raw_bits.h"
-#include "scheme_factory.h"
+#include "registry.h"
 
 namespace tilepress {
 namespace {
@@ -141,15 +141,12 @@ class PaletteDecoder final : public BlockDecoder {
 
 constexpr SchemeKey kKeys[] = {{.name = "file",
                                 .kind = KeyKind::kFile,
-                                .values = "a path",
-                                .standard = "",
                                 .summary = "palette from a file of #RRGGBB or #RRGGBBAA lines",
                                 .read_file = read_palette_file},
                                {.name = "from",
                                 .kind = KeyKind::kChoice,
-                                .values = "first",
-                                .standard = "first",
-                                .summary = "palette from the surface's first frame"},
+                                .summary = "palette from the surface's first frame",
+                                .choices = "first"},
                                kEntriesKey};
 
 Result<void> check_keys(const SchemeSpec&, std::span<const std::string_view> given) {

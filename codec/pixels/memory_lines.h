@@ -14,9 +14,8 @@ enum class LineOrder : uint8_t { kRaster, kQuad };
 /// The key of cache-line codecs.
 inline constexpr SchemeKey kOrderKey[] = {{.name = "order",
                                            .kind = KeyKind::kChoice,
-                                           .values = "raster, quad",
-                                           .standard = "raster",
-                                           .summary = "order of a block's pixels in memory lines"}};
+                                           .summary = "order of a block's pixels in memory lines",
+                                           .choices = "raster, quad"}};
 inline LineOrder line_order(const SchemeSpec& spec) {
   return static_cast<LineOrder>(spec.number("order"));
 }

@@ -13,7 +13,7 @@ inline void ras_block_write(const BlockContext& block, uint32_t cls, const RasCl
                             const FormatTraits& format, bool ycocg, BitWriter& payload) {
   if (cls == classes.raw_class()) return write_raw_block(block.pixels, format.pixel_bits, payload);
   const uint64_t end = payload.bit_count() + classes.bits_of(cls);
-  ras_stream_write(block.block, format, ycocg, payload);
+  ras_stream_write(block.raster(), format, ycocg, payload);
   payload.pad_to(end);
 }
 

@@ -5,7 +5,7 @@
 //   tables    none
 #include "ras/ras_bits.h"
 #include "ras/ras_block.h"
-#include "scheme_factory.h"
+#include "registry.h"
 
 namespace tilepress {
 namespace {
@@ -26,7 +26,6 @@ class RasEncoder final : public BlockEncoder {
   RasEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions& model)
       : coder_(spec, format, model) {}
 
-  SchemeNeeds needs() const override { return {.raster_to_encode = true}; }
   void subscribe(SharedAnalyses& analyses) override {
     bits_ = &analyses.get<RasBits>().subscribe(coder_.ycocg);
   }
@@ -64,14 +63,12 @@ class RasDecoder final : public BlockDecoder {
 
 constexpr SchemeKey kKeys[] = {{.name = "ycocg",
                                 .kind = KeyKind::kChoice,
-                                .values = "0, 1",
-                                .standard = "0",
-                                .summary = "transform to Y, Co, Cg, A first"},
+                                .summary = "transform to Y, Co, Cg, A first",
+                                .choices = "0, 1"},
                                {.name = "sizes",
                                 .kind = KeyKind::kChoice,
-                                .values = "3, 2, burst",
-                                .standard = "3",
-                                .summary = "size classes of a block"}};
+                                .summary = "size classes of a block",
+                                .choices = "3, 2, burst"}};
 
 const SchemeInfo kRasInfo = {
     .name = "ras",

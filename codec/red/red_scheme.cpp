@@ -5,7 +5,7 @@
 //   payload   one colour per region, regions in raster order; or 64 raw pixels
 //   tables    none
 #include "pixels/raw_bits.h"
-#include "scheme_factory.h"
+#include "registry.h"
 
 namespace tilepress {
 namespace {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "pixels/raw_bits.h"
-#include "scheme_factory.h"
+#include "registry.h"
 #include "te/crc64.h"
 
 namespace tilepress {

@@ -112,7 +112,7 @@ class BlockHarness {
  private:
   /// What the engine would tell the scheme about a block, found out by plain loops.
   struct Seen {
-    Seen(const BlockHarness& owner, const Block& block) : context{.block = block} {
+    Seen(const BlockHarness& owner, const Block& block) {
       const auto& colors = owner.ccd_.colors;
       for (uint32_t i = 0; i < kBlockPixels; ++i) {
         pixels[i] = block.pixels[kTraversal[i]];
@@ -142,7 +142,7 @@ class BlockHarness {
     reference::Picture picture{8, 8, {block.pixels.begin(), block.pixels.end()}};
     plane_.assign(patterns::in_memory(picture, pixel_format_).view());
     const std::vector<uint8_t> changed(1, 1);
-    const BlockContext context{.block = block};
+    const BlockContext context{};
     analyses_.for_each([&](BlockAnalysis& analysis) {
       analysis.begin_frame({plane_, 0, changed.data()});
       analysis.see_block(context);

@@ -1,11 +1,14 @@
 // Scheme: what every compression scheme offers, one block at a time: measure, encode, decode.
 #pragma once
 
+#include <array>
 #include <cassert>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "tilepress/bit_io.h"
 #include "tilepress/block.h"
@@ -19,19 +22,23 @@ namespace tilepress {
 
 /// One block. `pixels` is in traversal order (see block.h): position 4s + i is pixel i of sub-block s.
 struct BlockContext {
-  const Block& block;                ///< the pixels in raster order; filled only if a scheme needs them
   uint32_t bx = 0, by = 0;           ///< block column and row
   const uint32_t* pixels = nullptr;  ///< 64
   bool uniform = false;              ///< all pixels are equal
+
+  /// Returns the pixels in raster order.
+  Block raster() const {
+    Block block;
+    for (uint32_t i = 0; i < kBlockPixels; ++i) block.pixels[kTraversal[i]] = pixels[i];
+    return block;
+  }
 };
 
 /// What a scheme requires of the engine.
 struct SchemeNeeds {
-  bool first_frame = false;       ///< the surface's first frame affects every later frame
-  bool whole_frame = false;       ///< begin_frame() reads the pixels of the plane
-  bool place = false;             ///< a block's bits depend on its position, not only on its pixels
-  bool raster = false;            ///< measure() reads BlockContext::block
-  bool raster_to_encode = false;  ///< encode() reads BlockContext::block
+  bool first_frame = false;  ///< the surface's first frame affects every later frame
+  bool whole_frame = false;  ///< begin_frame() reads the pixels of the plane
+  bool place = false;        ///< a block's bits depend on its position, not only on its pixels
 };
 
 /// A block stored in memory of its own.
@@ -41,7 +48,7 @@ struct StoredBlock {
 };
 
 /// Encoder side. Call subscribe() once, begin_frame() once per frame, then visit blocks in any order.
-/// encode() writes exactly measure() payload bits and csb_bits() CSB bits.
+/// A scheme must have csb_bits() and encode(); the rest has defaults.
 class BlockEncoder {
  public:
   virtual ~BlockEncoder() = default;
@@ -54,8 +61,15 @@ class BlockEncoder {
   /// Bits of the tables that go with the frame (rCCD, code table): what write_tables() writes.
   virtual uint64_t palette_bits() const { return 0; }
   virtual void write_tables(BitWriter&) const {}
-  /// Payload bits of the block.
-  virtual uint32_t measure(const BlockContext& block) const = 0;
+  /// Payload bits that encode() writes. Override it where bits can be counted faster than written.
+  virtual uint32_t measure(const BlockContext& block) const {
+    std::array<uint8_t, kMaxRawBlockBits / 8> payload_bytes;
+    std::array<uint8_t, 16> csb_bytes;
+    BitWriter payload(payload_bytes), csb(csb_bytes);
+    encode(block, payload, csb);
+    return static_cast<uint32_t>(payload.bit_count());
+  }
+  /// Writes the payload and csb_bits() CSB bits.
   virtual void encode(const BlockContext& block, BitWriter& payload, BitWriter& csb) const = 0;
   /// Writes the same bits to memory of the block's own. `slot` has whole lines of 64 bytes and room for a raw
   /// block. `csb` has at least 8 bytes and room for csb_bits(); its last byte and its first 8 bytes are
@@ -95,9 +109,9 @@ class BlockDecoder {
 enum class KeyKind : uint8_t {
   kNumber,      ///< a whole number, low to high
   kPowerOfTwo,  ///< the same, powers of two only
-  kShare,       ///< a number from 0 to 1
-  kChoice,      ///< one word of `values`, which are separated by ", "
-  kFile,        ///< the path of a file that `read_file` reads
+  kShare,       ///< a number from 0 to 1; the default is 0
+  kChoice,      ///< one word of `choices`, which are separated by ", "
+  kFile,        ///< the path of a file that `read_file` reads; there is no default
 };
 
 constexpr uint32_t kLargestNumber = 0x7FFFFFFF;
@@ -105,13 +119,18 @@ constexpr uint32_t kLargestNumber = 0x7FFFFFFF;
 /// One key of a scheme: how to parse it, and what help prints about it.
 struct SchemeKey {
   const char* name;
-  KeyKind kind;
-  const char* values;    ///< for help
-  const char* standard;  ///< the default, for help
+  KeyKind kind = KeyKind::kNumber;
   const char* summary;
-  uint32_t low = 0, high = 0;
+  uint32_t low = 0, high = kLargestNumber;
   uint32_t initial = 0;  ///< the default: a number, or the position of a choice
+  const char* choices = "";
   Result<std::vector<uint32_t>> (*read_file)(const std::string& path) = nullptr;
+  const char* help_values = nullptr;   ///< replaces values()
+  const char* help_initial = nullptr;  ///< replaces default_value()
+
+  /// The values and the default as help prints them, such as "2, 4, 8 ... 1024".
+  std::string values() const;
+  std::string default_value() const;
 };
 
 /// One scheme: everything that the command, the CSV files and the report know about it.
@@ -132,6 +151,18 @@ struct SchemeInfo {
   bool has_dcp_structures = false;  ///< FVC, CCD and rCCD, whose energy the paper states
   bool needs_frame_before = false;  ///< a frame's bits alone do not restore it: use decode_at
 };
+
+/// For SchemeInfo::make_encoder and make_decoder: constructs a T from their parameters.
+template <class T>
+std::unique_ptr<BlockEncoder> make_encoder(const SchemeSpec& spec, const FormatTraits& format,
+                                           const ModelOptions& model) {
+  return std::make_unique<T>(spec, format, model);
+}
+template <class T>
+std::unique_ptr<BlockDecoder> make_decoder(const SchemeSpec& spec, const FormatTraits& format,
+                                           const ModelOptions& model) {
+  return std::make_unique<T>(spec, format, model);
+}
 
 /// The schemes of this library, then the ones registered at run time.
 const std::deque<SchemeInfo>& scheme_registry();

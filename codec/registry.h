@@ -1,0 +1,11 @@
+// Registry: the schemes of the library, one line each in registry.cpp; each is defined beside its code.
+#pragma once
+
+#include "tilepress/scheme.h"
+
+namespace tilepress {
+
+extern const SchemeInfo kDcpInfo, kAdcpInfo, kVdcpInfo, kHuffDcpInfo, kRasInfo, kRedInfo, kHdcpInfo;
+extern const SchemeInfo kPaletteInfo, kFbcInfo, kTeInfo, kBdiInfo, kBpcInfo;
+
+}  // namespace tilepress
