@@ -57,21 +57,14 @@ std::string rule_of(const SchemeKey& key) {
 
 std::string SchemeKey::values() const {
   if (help_values != nullptr) return help_values;
-  const std::string first = std::to_string(low),
-                    last = high == kLargestNumber ? "" : " " + std::to_string(high);
-  switch (kind) {
-    case KeyKind::kNumber:
-      return first + " ..." + last;
-    case KeyKind::kPowerOfTwo:
-      return first + ", " + std::to_string(2 * low) + ", " + std::to_string(4 * low) + " ..." + last;
-    case KeyKind::kShare:
-      return "0 ... 1";
-    case KeyKind::kChoice:
-      return choices;
-    case KeyKind::kFile:
-      break;
-  }
-  return "a path";
+  if (kind == KeyKind::kShare) return "0 ... 1";
+  if (kind == KeyKind::kChoice) return choices;
+  if (kind == KeyKind::kFile) return "a path";
+  std::string text = std::to_string(low);
+  if (kind == KeyKind::kPowerOfTwo)
+    for (const uint32_t factor : {2, 4}) text.append(", ").append(std::to_string(factor * low));
+  text += " ...";
+  return high == kLargestNumber ? text : text.append(" ").append(std::to_string(high));
 }
 
 std::string SchemeKey::default_value() const {

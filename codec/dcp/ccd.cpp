@@ -30,7 +30,7 @@ void Ccd::build(const Fvc& fvc) {
 
 void CcdLookup::build(const Ccd& ccd) {
   collision_free_ = false;
-  has_slots_ = slot_kernels().byte_permutes && ccd.entries <= SlotTable::kSlots;
+  has_slots_ = slot_table_pays(ccd.entries);
   if (has_slots_) {
     slots_.clear();
     for (uint32_t i = 0; i < ccd.colors.size(); ++i) slots_.insert(i, ccd.colors[i]);

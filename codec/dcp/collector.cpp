@@ -1,84 +1,49 @@
-// Collector: chooses the form of the FVC that collects.
+// Collector: chooses the form of the FVC that collects, and samples for it.
 #include "dcp/collector.h"
 
+#include "dcp/lfc_collector.h"
+#include "dcp/run_collector.h"
 #include "tilepress/simd.h"
 
 namespace tilepress {
 
-Collector::Collector(const FvcConfig& config, const FormatTraits& format) : fvc_(config, format) {
-  if (config.policy == FvcPolicy::kLfc && config.ways == 0 && config.sample == 1 &&
-      config.entries <= LfcCollector::kMaxEntries && simd_target() != "scalar")
-    fast_ = std::make_unique<LfcCollector>(config.entries);
+std::unique_ptr<FastFvc> make_fast_fvc(const FvcConfig& config, const FormatTraits& format) {
+  if (simd_target() == "scalar") return nullptr;  // the definition
+  if (config.policy == FvcPolicy::kLfc && config.ways_per_set() == config.entries && config.sample == 1) {
+    if (slot_table_pays(config.entries)) return std::make_unique<LfcCollector<SlotMembers>>(config.entries);
+    if (config.entries <= ProbeMembers::kMost)
+      return std::make_unique<LfcCollector<ProbeMembers>>(config.entries);
+  }
+  return make_run_collector(config, format);
 }
 
-void Collector::begin_frame(uint64_t ordinal) {
-  collecting_ = ordinal % fvc_.config().period == 0;
-  lookups_ = {.dictionary = wanted && ccd() != nullptr ? lookup_.slots() : nullptr,
-              .indices = indices_.data(),
-              .widths = widths_.data(),
-              .members = collecting_ && fast_ ? fast_->members() : nullptr,
-              .slots = slots_.data(),
-              .found = {}};
-  if (!collecting_) return;
+Collector::Collector(const FvcConfig& config, const FormatTraits& format)
+    : fvc_(config, format), fast_(make_fast_fvc(config, format)), takes_all_(fast_ && config.sample == 1) {}
+
+void Collector::begin_frame() {
   fvc_.reset();
   if (fast_) fast_->reset();
-}
-
-bool Collector::listen(ColorListener* listener) {
-  if (!collecting_ || !fast_) return false;
-  fast_->listen(listener);
-  return true;
+  until_sample_ = 1;
 }
 
 void Collector::see_run(uint32_t color, uint32_t count) {
-  if (!collecting_) return;
-  fast_ ? fast_->see_run(color, count) : fvc_.see_run(color, count);
-}
-
-void Collector::see_all(const uint32_t* pixels, uint32_t count, const FewColors* few) {
-  if (!collecting_) return;
-  if (!fast_) {
-    fvc_.see_all(pixels, count);
-  } else if (count < kBlockPixels) {
-    for (uint32_t i = 0; i < count; ++i) fast_->see_run(pixels[i], 1);
-  } else if (has_found_) {
-    fast_->see_found(pixels, lookups_.found, slots_.data());
-  } else if (few == nullptr || !fast_->see_block(*few)) {
-    fast_->see_block(pixels);
+  if (!fast_) return fvc_.see_run(color, count);
+  if (takes_all_) return fast_->see_run(color, count);
+  if (count < until_sample_) {
+    until_sample_ -= count;
+    return;
   }
+  const uint32_t sample = fvc_.config().sample, behind_first = count - until_sample_;
+  fast_->see_run(color, 1 + behind_first / sample);
+  until_sample_ = sample - behind_first % sample;
 }
 
-void Collector::end_frame() {
-  if (!collecting_ || !fast_) return;
-  fast_->tell_held();
-  fast_->store_to(fvc_);
-}
-
-void Collector::build_ccd() {
-  if (!collecting_) return;
-  ccd_.build(fvc_);
-  lookup_.build(ccd_);
-  view_.ccd = &ccd_;
-}
-
-void Collector::look_up(const uint32_t* pixels, bool uniform, const FewColors* few) {
-  if (uniform) {
-    const uint16_t index = lookup_.find(pixels[0]);
-    indices_.fill(index);
-    widths_.fill(width_of(index));
-  } else if (few != nullptr) {
-    lookup_.find_block(pixels, *few, indices_.data(), widths_.data());
-  } else {
-    lookup_.find_block(pixels, indices_.data(), widths_.data());
-  }
-}
-
-bool Collector::load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels) {
-  const bool uniform = slot_kernels().load(top_left, stride, pixels, lookups_);
-  has_found_ = !uniform && lookups_.members != nullptr;
-  if (!uniform && wanted && ccd() != nullptr && lookups_.dictionary == nullptr)
-    look_up(pixels, false, nullptr);
-  return uniform;
+void Collector::see(const SeenPixels& seen) {
+  if (!fast_) return fvc_.see_all(seen.pixels, seen.count);
+  if (takes_all_) return fast_->see(seen);
+  uint32_t at = until_sample_;  // behind the next pixel to take
+  for (; at <= seen.count; at += fvc_.config().sample) fast_->see_run(seen.pixels[at - 1], 1);
+  until_sample_ = at - seen.count;
 }
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Collector: the FVC and the dictionary of one configuration in use.
+// Collector: an FVC in use, in the fastest form that there is for it; and the dictionaries built from it.
 #pragma once
 
 #include <array>
@@ -6,57 +6,64 @@
 #include <memory>
 
 #include "dcp/ccd_view.h"
+#include "dcp/fast_fvc.h"
 #include "dcp/fvc.h"
-#include "dcp/lfc_collector.h"
-#include "dcp/slot_kernels.h"
-#include "tilepress/block.h"
-#include "tilepress/pixel_format.h"
 
 namespace tilepress {
 
-/// Collects in the frames of its period. Builds a CCD at the end of each such frame, for the frames after it.
+/// Collects one frame at a time for all configurations that differ in their period alone.
 class Collector {
  public:
   Collector(const FvcConfig& config, const FormatTraits& format);
-  Collector(const Collector&) = delete;  // view() refers to this object
 
-  void begin_frame(uint64_t ordinal);
-  /// Call it after begin_frame(). Reports every pixel of the frame to `listener`. Returns false, and reports
-  /// nothing, if this frame is not collected or only by the plain FVC.
-  bool listen(ColorListener* listener);
+  /// Empties the FVC.
+  void begin_frame();
+  /// Call it after begin_frame(). Reports every pixel of the frame to `listener` by end_frame(). Returns
+  /// false, and reports nothing, if the collector does not see every pixel.
+  bool listen(ColorListener* listener) {
+    if (takes_all_) fast_->listen(listener);
+    return takes_all_;
+  }
   /// Takes `count` pixels of one colour in a row.
   void see_run(uint32_t color, uint32_t count);
-  /// Takes pixels in traversal order. `few` has the colours of a whole block of few colours, else it is null.
-  void see_all(const uint32_t* pixels, uint32_t count, const FewColors* few);
+  void see(const SeenPixels& seen);
+  bool wants_runs() const { return takes_all_ && fast_->wants_runs(); }
+  /// See FastFvc.
+  MemberLookup* lookup() { return takes_all_ ? fast_->lookup() : nullptr; }
   /// Call it after the last pixel: fvc() is complete then.
-  void end_frame();
-  /// Call it after end_frame() if a scheme looks colours up.
-  void build_ccd();
-
-  /// Looks up a block in traversal order for view(). Precondition: ccd() is there.
-  void look_up(const uint32_t* pixels, bool uniform, const FewColors* few);
-  /// Loads a block, see PixelKernels::load_traversal. Unless all pixels are equal, also looks them up if the
-  /// CCD is there and wanted, and prepares see_all(), which must be the next call.
-  bool load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels);
-
+  void end_frame() {
+    if (fast_) fast_->store_to(fvc_);
+  }
   const Fvc& fvc() const { return fvc_; }
-  const Ccd* ccd() const { return view_.ccd; }  ///< null: none yet
-  const CcdView& view() const { return view_; }
-
-  bool wanted = false;  ///< a scheme looks colours up in its CCD
 
  private:
   Fvc fvc_;
-  std::unique_ptr<LfcCollector> fast_;  ///< collects instead of fvc_ where it can, with the same result
-  Ccd ccd_;
-  CcdLookup lookup_;
-  bool collecting_ = false;  ///< in this frame
-  std::array<uint16_t, kBlockPixels> indices_;
-  std::array<uint8_t, kSubBlocks> widths_;
-  CcdView view_{.ccd = nullptr, .indices = indices_.data(), .widths = widths_.data()};
-  std::array<uint8_t, kBlockPixels> slots_;
-  SlotLookups lookups_{};   ///< of load()
-  bool has_found_ = false;  ///< lookups_ holds the answers for the next see_all()
+  std::unique_ptr<FastFvc> fast_;  ///< collects instead of fvc_, with the same result; may be null
+  const bool takes_all_;           ///< fast_ takes every pixel
+  uint32_t until_sample_ = 1;      ///< pixels up to the next that fast_ takes
+};
+
+/// A CCD in force, and the block at hand looked up in it.
+struct Dictionary {
+  Ccd ccd;
+  CcdLookup lookup;
+  std::array<uint16_t, kBlockPixels> indices;
+  std::array<uint8_t, kSubBlocks> widths;
+
+  void build(const Fvc& fvc) {
+    ccd.build(fvc);
+    lookup.build(ccd);
+  }
+  /// Looks up a block in traversal order. `few` has its colours if they are few, else it is null.
+  void look_up(const uint32_t* pixels, const FewColors* few) {
+    few != nullptr ? lookup.find_block(pixels, *few, indices.data(), widths.data())
+                   : lookup.find_block(pixels, indices.data(), widths.data());
+  }
+  /// Looks up a block of one colour.
+  void look_up_solid(uint32_t color) {
+    indices.fill(lookup.find(color));
+    widths.fill(width_of(indices[0]));
+  }
 };
 
 }  // namespace tilepress

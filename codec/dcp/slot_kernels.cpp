@@ -41,10 +41,10 @@ void index(const uint32_t* pixels, const SlotTable& table, uint16_t* indices, ui
   fill_widths(indices, widths);
 }
 
-bool load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, SlotLookups& lookups) {
+bool load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, const SlotLookups& lookups) {
   if (kPlainPixelKernels.load_traversal(top_left, stride, pixels)) return true;
-  if (lookups.dictionary != nullptr) index(pixels, *lookups.dictionary, lookups.indices, lookups.widths);
-  if (lookups.members != nullptr) lookups.found = find(pixels, *lookups.members, lookups.slots);
+  for (const IndexLookup& each : lookups.dictionaries) index(pixels, *each.table, each.indices, each.widths);
+  for (MemberLookup* each : lookups.members) each->found = find(pixels, *each->table, each->slots);
   return false;
 }
 

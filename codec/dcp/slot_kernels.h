@@ -1,6 +1,8 @@
 // Slot kernels: 64 pixels looked up in a slot table at once.
 #pragma once
 
+#include <vector>
+
 #include "cpu/cpu_target.h"
 #include "dcp/slot_table.h"
 
@@ -13,22 +15,33 @@ struct FoundSlots {
   uint64_t begins;
 };
 
-/// What `load` looks up, and where the answers go.
-struct SlotLookups {
-  const SlotTable* dictionary;  ///< for `index`; null: not wanted
+/// The parameters of `index`, and where its answers go.
+struct IndexLookup {
+  const SlotTable* table;
   uint16_t* indices;
   uint8_t* widths;
-  const SlotTable* members;  ///< for `find`; null: not wanted
-  uint8_t* slots;
+};
+
+/// The parameters of `find`, and its answers.
+struct MemberLookup {
+  const SlotTable* table;
   FoundSlots found;
+  uint8_t slots[kBlockPixels];
+};
+
+/// What `load` looks a block up in.
+struct SlotLookups {
+  std::vector<IndexLookup> dictionaries;
+  std::vector<MemberLookup*> members;
+  bool empty() const { return dictionaries.empty() && members.empty(); }
 };
 
 struct SlotKernels {
-  /// True if these kernels are faster than probe kernels. Slot tables are used only then.
+  /// True if these kernels are faster than probe kernels.
   bool byte_permutes;
 
   /// See PixelKernels::load_traversal. Looks the pixels up unless they are all equal.
-  bool (*load)(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, SlotLookups& lookups);
+  bool (*load)(const uint32_t* top_left, uint32_t stride, uint32_t* pixels, const SlotLookups& lookups);
 
   /// slots[i] = the slot of pixels[i], or SlotTable::kAbsent.
   FoundSlots (*find)(const uint32_t* pixels, const SlotTable& table, uint8_t* slots);
@@ -44,6 +57,10 @@ struct SlotKernels {
 extern const KernelSets<SlotKernels> kSlotKernelSets;
 inline const SlotKernels& slot_kernels() {
   return kSlotKernelSets.in_use();
+}
+/// True if a slot table is the fastest way to find one of `colors` colours.
+inline bool slot_table_pays(uint32_t colors) {
+  return slot_kernels().byte_permutes && colors <= SlotTable::kSlots;
 }
 
 }  // namespace tilepress

@@ -221,12 +221,13 @@ TILEPRESS_VBMI void index_slots(const uint32_t* pixels, const SlotTable& table, 
 }
 
 TILEPRESS_VBMI bool load_slots(const uint32_t* top_left, uint32_t stride, uint32_t* pixels,
-                               SlotLookups& lookups) {
+                               const SlotLookups& lookups) {
   BlockWords words;
   if (load(top_left, stride, pixels, words)) return true;
   const Keys keys = keys_of(words);
-  if (lookups.dictionary != nullptr) index_slots(keys, *lookups.dictionary, lookups.indices, lookups.widths);
-  if (lookups.members != nullptr) lookups.found = find_slots(words, keys, *lookups.members, lookups.slots);
+  for (const IndexLookup& each : lookups.dictionaries)
+    index_slots(keys, *each.table, each.indices, each.widths);
+  for (MemberLookup* each : lookups.members) each->found = find_slots(words, keys, *each->table, each->slots);
   return false;
 }
 

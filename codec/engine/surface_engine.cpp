@@ -129,7 +129,7 @@ void SurfaceEngine::State::visit_block(uint32_t bx, uint32_t by) {
   } else {
     settle_repeats(runs.place());
     runs.hold(pixels[0]);
-    collectors.look_up_solid(pixels);
+    collectors.look_up_solid(pixels[0]);
   }
   for (BlockAnalysis* analysis : per_block) analysis->see_block(block);
   lanes.take(block, runs.place());
@@ -142,7 +142,7 @@ void SurfaceEngine::State::collect(const BlockContext& block) {
   if (block.uniform) return collectors.see_solid(block.pixels[0], count);
   if (count == kBlockPixels) return collectors.see(block.pixels, count);
   const uint32_t width = frame.width - block.bx * kBlockSide, height = frame.height - block.by * kBlockSide;
-  uint32_t inside[kBlockPixels];
+  uint32_t inside[kBlockPixels] = {};
   count = 0;
   for (uint32_t i = 0; i < kBlockPixels; ++i)
     if (kTraversal[i] % 8 < width && kTraversal[i] / 8 < height) inside[count++] = block.pixels[i];
@@ -161,7 +161,7 @@ void SurfaceEngine::State::end_frame() {
   lanes.end_frame();
   collectors.end_frame();
   out->metrics = collectors.metrics(source.plane(), source.changed());
-  collectors.build_ccds();
+  collectors.build_dictionaries();
   source.end_frame();
   ++ordinal;
 }
@@ -185,10 +185,8 @@ std::vector<uint64_t> SurfaceEngine::history(uint64_t ordinal, PixelFormat forma
   std::vector<uint64_t> frames;
   if (ordinal == 0) return frames;
   frames.push_back(ordinal - 1);
-  for (const auto& collector : state_->collectors.all()) {
-    const uint32_t period = collector->fvc().config().period;
-    frames.push_back((ordinal - 1) / period * period);
-  }
+  state_->collectors.for_each_period(
+      [&](uint32_t period) { frames.push_back((ordinal - 1) / period * period); });
   if (state_->lanes.needs().first_frame) frames.push_back(0);
   std::sort(frames.begin(), frames.end());
   frames.erase(std::unique(frames.begin(), frames.end()), frames.end());

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "dcp/lfc_collector.h"
+#include "dcp/fast_fvc.h"
 #include "pixels/few_colors.h"
 #include "statistics/color_distribution.h"
 #include "statistics/color_histogram.h"

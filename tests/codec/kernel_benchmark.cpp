@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dcp/fvc.h"
-#include "dcp/lfc_collector.h"
+#include "dcp/collector.h"
 #include "pixels/pixel_kernels.h"
 #include "ras/ras_kernels.h"
 #include "surface_patterns.h"
@@ -27,11 +27,12 @@ void set_rate(benchmark::State& state) {
 
 void fvc(benchmark::State& state, uint32_t pattern) {
   const std::vector<uint32_t> pixels = blocks_of(pattern);
-  LfcCollector collector(64);
+  Collector collector(FvcConfig{}, traits(PixelFormat::kRgba8));
   size_t at = 0;
   uint32_t block[kBlockPixels];
   for (auto _ : state) {
-    if (!pixel_kernels().load_traversal(&pixels[at], kBlockSide, block)) collector.see_block(block);
+    if (!pixel_kernels().load_traversal(&pixels[at], kBlockSide, block))
+      collector.see({block, kBlockPixels, false, nullptr, pixel_kernels().run_begins(block)});
     at = (at + kBlockPixels) % pixels.size();
   }
   set_rate(state);

@@ -41,8 +41,10 @@ void expect_agreement(const SlotTable& table, const std::unordered_map<uint32_t,
     uint32_t raster[kBlockPixels];
     for (uint32_t i = 0; i < kBlockPixels; ++i) raster[kTraversal[i]] = pixels[i];
     std::array<uint16_t, kBlockPixels> indices;
-    uint8_t widths[kSubBlocks], slots[kBlockPixels];
-    SlotLookups lookups{&table, indices.data(), widths, &table, slots, {}};
+    uint8_t widths[kSubBlocks];
+    MemberLookup members{&table, {}, {}};
+    const SlotLookups lookups{{{&table, indices.data(), widths}}, {&members}};
+    const auto& slots = members.slots;
     const bool uniform = slot_kernels().load(raster, kBlockSide, traversed.data(), lookups);
     ASSERT_EQ(traversed, pixels);
     ASSERT_EQ(uniform, std::count(pixels.begin(), pixels.end(), pixels[0]) == kBlockPixels);
@@ -50,16 +52,16 @@ void expect_agreement(const SlotTable& table, const std::unordered_map<uint32_t,
     ASSERT_EQ(indices, wanted);
     for (uint32_t i = 0; i < kBlockPixels; ++i) {
       ASSERT_EQ(slots[i], wanted[i] == kNotInCcd ? SlotTable::kAbsent : wanted[i]);
-      ASSERT_EQ(lookups.found.known >> i & 1, wanted[i] != kNotInCcd);
+      ASSERT_EQ(members.found.known >> i & 1, wanted[i] != kNotInCcd);
       const bool other =
-          i == 0 || (lookups.found.known != 0 ? slots[i] != slots[i - 1] : pixels[i] != pixels[i - 1]);
-      ASSERT_EQ(lookups.found.begins >> i & 1, other);
+          i == 0 || (members.found.known != 0 ? slots[i] != slots[i - 1] : pixels[i] != pixels[i - 1]);
+      ASSERT_EQ(members.found.begins >> i & 1, other);
     }
     uint8_t slots_alone[kBlockPixels];
     const FoundSlots found = slot_kernels().find(pixels.data(), table, slots_alone);
     ASSERT_TRUE(std::ranges::equal(slots, slots_alone));
-    ASSERT_EQ(found.known, lookups.found.known);
-    ASSERT_EQ(found.begins, lookups.found.begins);
+    ASSERT_EQ(found.known, members.found.known);
+    ASSERT_EQ(found.begins, members.found.begins);
     indices.fill(1);
     std::ranges::fill(widths, 1);
     slot_kernels().index(pixels.data(), table, indices.data(), widths);
