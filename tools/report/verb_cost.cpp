@@ -94,8 +94,8 @@ void print_text(const CostOptions& options) {
     std::printf("  rate %7.4g %9.2f MB/s %9.2f mW, saves %.1f %%\n", rate, raw / rate / 1e6,
                 compressed_power_mw(raw, rate, constants), 100 * energy_saving(rate, constants));
   std::printf(
-      "The paper prints 199.6 mW of dynamic power, and 629.4 mW including 429.8 mW of static power. 199.6 mW\n"
-      "is the dynamic power of its own display: 720x1280 RGBA8 written and read 60 times a second, 442.37 MB/s x 451.2 pJ/B.\n");
+      "The paper prints 199.6 mW of dynamic power, and 629.4 mW including 429.8 mW of static power.\n"
+      "199.6 mW is its own display: 720x1280 RGBA8 written and read 60 times a second, 442.37 MB/s x 451.2 pJ/B.\n");
 }
 
 }  // namespace
