@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "interposer/engine/readback/gl_readback.h"
+#include "interposer/engine/readback/channel_bits.h"
 #include "interposer/engine/source/context_version.h"
 #include "interposer/engine/source/gl_functions.h"
 

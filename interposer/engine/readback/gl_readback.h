@@ -1,9 +1,7 @@
 // GL readback: reads the back buffer of the current surface as the implementation keeps it.
 #pragma once
 
-#include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "interposer/engine/readback/captured_frame.h"
 #include "interposer/engine/readback/pixel_buffers.h"
@@ -11,16 +9,6 @@
 #include "interposer/engine/surface_registry.h"
 
 namespace tilepress {
-
-/// Bits of each colour channel of a config or visual.
-struct ChannelBits {
-  int red = 0, green = 0, blue = 0, alpha = 0;
-  bool floating = false;
-  bool integer = false;  ///< not normalized, or signed
-};
-
-/// Returns the pixel format with exactly these channels, if there is one.
-std::optional<PixelFormat> format_of(const ChannelBits& bits);
 
 /// Reads the whole back buffer into `frame`, or starts to, in the way of `frame.way`, and sets the frame's
 /// view. Changes the way to kSync if pixel buffers fail or `buffers` is null. The current context must be a

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <vector>
 
+#include "interposer/engine/readback/channel_bits.h"
 #include "interposer/engine/readback/private_session.h"
 #include "interposer/engine/source/config_cache.h"
 #include "interposer/engine/source/context_version.h"

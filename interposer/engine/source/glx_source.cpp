@@ -1,4 +1,5 @@
 // GLX source: describes and reads the drawable of a glXSwapBuffers.
+#include "interposer/engine/readback/channel_bits.h"
 #include "interposer/engine/readback/private_session.h"
 #include "interposer/engine/source/config_cache.h"
 #include "interposer/engine/source/context_version.h"
