@@ -66,9 +66,9 @@ enum TilepressGlKind {
 // A watched GL call, before it is forwarded.
 struct TilepressGlCall {
   uint32_t kind;               // enum TilepressGlKind
-  uint32_t by_default;         // a trigger that was not asked for: the context is OSMesa's
+  uint32_t by_default;         // a trigger without an option: the context is OSMesa's
   uint32_t context_destroyed;  // as in TilepressPresent
-  void* osmesa;                // a function of OSMesa's library, if one of its contexts was made current here
+  void* osmesa;                // a function of OSMesa's library, if the thread has an OSMesa context
   uint32_t road;               // enum TilepressRoad
   // The first integer and pointer arguments, as registers hold them: upper halves are noise.
   const uintptr_t* arguments;

@@ -78,8 +78,8 @@ bool Capture::take_present(TilepressPresent& present, uint64_t begin_ns) {
   return true;
 }
 
-// glXSwapBuffers returns nothing, so that each of its calls counts as a present. Of EGL's failing calls, the
-// program hears itself.
+// glXSwapBuffers returns nothing, so each of its calls counts as a present, and the log warns once per
+// reason. A failing eglSwapBuffers returns an error to the program.
 Take Capture::not_described(const TilepressPresent& present, const Error& reason) {
   const std::string line = "not captured: " + reason.text;
   bool warns = present.api == TILEPRESS_GLX;

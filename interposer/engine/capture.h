@@ -19,7 +19,7 @@
 
 namespace tilepress {
 
-/// What the environment asks for.
+/// The settings in the environment.
 struct CaptureSettings {
   RunOptions options;
   bool enabled = false;        ///< the options are valid and have an output folder
@@ -35,7 +35,7 @@ class Capture {
   explicit Capture(const TilepressHost& host);
   int64_t pid() const { return pid_; }
 
-  /// Captures a frame, and measures what --measure-overhead asks for.
+  /// Captures a frame, and takes the times for --measure-overhead.
   bool begin(TilepressPresent& present);
   void end(TilepressPresent& present, bool presented);
   void gl_call(const TilepressGlCall& call);

@@ -1,4 +1,4 @@
-// Read policy: the window's kind comes first, then the user's wish, then the probe.
+// Read policy: the kind of window decides first, then the user's option, then the probe.
 #include "interposer/engine/read_policy.h"
 
 namespace tilepress {

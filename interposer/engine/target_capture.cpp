@@ -19,8 +19,8 @@ bool deletes_images(uint32_t kind) {
   return kind == TILEPRESS_GL_DELETE_TEXTURES || kind == TILEPRESS_GL_DELETE_RENDERBUFFERS;
 }
 
-/// Asks the program's context for all sizes. If that context has no query for the first one, asks a private
-/// context that shares its objects.
+/// Queries all sizes in the program's context. If that context has no query for the first one, queries them
+/// in a private context that shares its objects.
 std::vector<Result<ImageShape>> measure(const TilepressPresent& present, PresentSource& source,
                                         const std::vector<Attachment>& images) {
   std::vector<Result<ImageShape>> shapes;

@@ -54,7 +54,7 @@ bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
   frame.read_ns = now_ns() - begin_ns;
   bool failed = false;
   while (gl.GetError() != GL_NO_ERROR) failed = true;
-  // A pixel buffer that holds other pixels than the call returned is of no use.
+  // The pixel buffer must hold the pixels that the call returned, or no pixel buffer is used.
   if (late == nullptr || !buffers->equals(*late, pixels)) frame.buffered_ns = 0;
   return !failed;
 }

@@ -79,7 +79,7 @@ Result<void> PrivateSession::read_privately(Binding program, const Drawable& dra
   const uint64_t begin_ns = now_ns();
   Binding own{display, drawable.key.surface, drawable.key.surface, pool_.take(key)};
   bool bound = own.context != nullptr && api_.bind(own);
-  if (!bound) {  // none is free, or a device reset has lost the one that was
+  if (!bound) {  // no context is free, or a device reset has lost the free one
     own.context = api_.create_private(drawable, program);
     bound = own.context != nullptr && api_.bind(own);
   }

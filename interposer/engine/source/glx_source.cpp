@@ -232,7 +232,7 @@ class GlxSource final : public PresentSource, ContextApi {
     });
   }
 
-  /// Whether the program asks GL to encode what it draws to a capable visual.
+  /// Returns true if GL encodes what the program draws to a capable visual.
   bool encodes_srgb() const {
     if (glx_.GetCurrentContext() == nullptr) return false;
     const ContextVersion version = version_of(gl_);
