@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "choice_option.h"
 #include "streams/messages.h"
 
 namespace tilepress {
@@ -21,11 +22,11 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-std::optional<ProgressMode> parse_progress_mode(const std::string& text) {
-  if (text == "auto") return ProgressMode::kAuto;
-  if (text == "never") return ProgressMode::kNever;
-  if (text == "json") return ProgressMode::kJson;
-  return std::nullopt;
+void add_progress_option(CLI::App& app, ProgressMode& mode) {
+  add_choice_option<ProgressMode>(
+      app, "--progress", mode,
+      {{"auto", ProgressMode::kAuto}, {"never", ProgressMode::kNever}, {"json", ProgressMode::kJson}},
+      "Progress on standard error (default: auto, one line on a terminal)");
 }
 
 ProgressLine::ProgressLine(ProgressMode mode, std::string what)

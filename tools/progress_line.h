@@ -1,6 +1,7 @@
 // Progress line: how far a verb is, on standard error.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -10,7 +11,8 @@ namespace tilepress {
 
 enum class ProgressMode : uint8_t { kAuto, kNever, kJson };
 
-std::optional<ProgressMode> parse_progress_mode(const std::string& text);
+/// Adds --progress, whose word sets `mode`.
+void add_progress_option(CLI::App& app, ProgressMode& mode);
 
 /// kAuto shows one line with an estimate of the time left, rewritten in place, if standard error is a
 /// terminal; kJson prints an object per line whatever standard error is. At most ten times a second.

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "tilepress/plural.h"
+#include "plural.h"
 
 namespace tilepress {
 namespace {

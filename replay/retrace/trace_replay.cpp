@@ -8,12 +8,12 @@
 #include <thread>
 
 #include "frame_rows.h"
+#include "plural.h"
 #include "replay_attempt.h"
 #include "replay_folder.h"
 #include "replay_road.h"
 #include "replay_verdict.h"
 #include "tilepress/file_digest.h"
-#include "tilepress/plural.h"
 #include "tilepress/run_lock.h"
 
 namespace tilepress {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "command_line.h"
+#include "counted.h"
 #include "printable.h"
-#include "tilepress/plural.h"
 #include "tilepress/trace_summary.h"
 #include "verb.h"
 
@@ -66,10 +66,10 @@ void print_trace(const std::string& path, const TraceSummary& trace) {
   for (const TraceSurface& surface : trace.surfaces) {
     const std::string size =
         surface.width == 0 ? "size not recorded" : fmt::format("{}x{}", surface.width, surface.height);
-    print_line(label, fmt::format("{:#x}: {}, {}", surface.id, size, plural(surface.frames, "frame")));
+    print_line(label, fmt::format("{:#x}: {}, {}", surface.id, size, counted(surface.frames, "frame")));
     label = "";
   }
-  std::string calls = fmt::format("{} by {}", trace.calls, plural(trace.threads, "thread"));
+  std::string calls = fmt::format("{} by {}", trace.calls, counted(trace.threads, "thread"));
   if (trace.open_calls > 0) calls += fmt::format(", {} never returned", trace.open_calls);
   print_line("calls", calls);
   print_line("duration", trace.duration_ns ? fmt::format("{:.3f} s between the program's GPU time stamps",
@@ -103,7 +103,7 @@ int verb_info(int argc, char** argv) {
     if (trace->state != TraceState::kComplete) {
       std::fflush(stdout);
       status = fail(kExitFailed, fmt::format("{}: {} after {}: {}", path, name_of(trace->state),
-                                             plural(trace->frames, "frame"), trace->reason));
+                                             counted(trace->frames, "frame"), trace->reason));
     }
   }
   if (json) std::printf("%s\n", list.dump(2, ' ', false, Json::error_handler_t::replace).c_str());

@@ -4,10 +4,10 @@
 #include <filesystem>
 
 #include "capture/child_process.h"
-#include "capture/choice_option.h"
 #include "capture/launch_line.h"
+#include "choice_option.h"
+#include "counted.h"
 #include "printable.h"
-#include "tilepress/plural.h"
 #include "tilepress/program_api.h"
 #include "tilepress/program_search.h"
 #include "tilepress/trace_summary.h"
@@ -65,7 +65,7 @@ Result<TraceSummary> look_at(const std::string& file, TraceApi api) {
   if (!trace || trace->frames > 0) return trace;
   if (trace->calls == 0)
     return useless(fmt::format("the program made no {} or GL call that could be recorded", name_of(api)));
-  return useless(plural(trace->calls, "call") + " recorded, none of them presents a frame");
+  return useless(counted(trace->calls, "call") + " recorded, none of them presents a frame");
 }
 
 Recording record_once(const RecordOptions& options, TraceApi api, const std::string& file) {
@@ -84,7 +84,7 @@ int keep(const RecordOptions& options, const Recording& recording, const std::st
   if (code) return fail(kExitFailed, options.output + ": " + code.message());
   const TraceSummary& trace = *recording.trace;
   const TraceSurface& surface = trace.surfaces.front();
-  std::string text = fmt::format("{}: {}, {}x{}, {}, {}\n", options.output, plural(trace.frames, "frame"),
+  std::string text = fmt::format("{}: {}, {}x{}, {}, {}\n", options.output, counted(trace.frames, "frame"),
                                  surface.width, surface.height, name_of(trace.api),
                                  trace.contexts.empty() ? "context unknown" : printable(trace.contexts));
   if (trace.state != TraceState::kComplete)

@@ -2,12 +2,12 @@
 #include <filesystem>
 #include <map>
 
-#include "capture/choice_option.h"
 #include "capture/output_folder.h"
 #include "capture/replay_outcome.h"
 #include "capture/replay_tables.h"
 #include "capture/shim_launch.h"
 #include "capture/trace_manifest.h"
+#include "choice_option.h"
 #include "command_line.h"
 #include "common_options.h"
 #include "progress_line.h"
@@ -68,10 +68,7 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
                  "Seconds without a frame after which a retracer counts as hung (default: 300; 0: never)")
       ->type_name("S")
       ->check(CLI::Range(int64_t{0}, int64_t{1} << 30));
-  add_choice_option<ProgressMode>(
-      app, "--progress", options.progress,
-      {{"auto", ProgressMode::kAuto}, {"never", ProgressMode::kNever}, {"json", ProgressMode::kJson}},
-      "Progress on standard error (default: auto, if it is a terminal)");
+  add_progress_option(app, options.progress);
   app.add_flag("-v,--verbose", options.verbose, "Explain each step");
   app.add_flag("-q,--quiet", options.quiet, "No table");
   if (auto status = parse_command_line(app, argc, argv)) return status;

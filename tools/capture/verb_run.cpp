@@ -1,15 +1,15 @@
 // tilepress run: a program under the shim, its own input, output and exit status passed through.
 #include <fmt/format.h>
 
-#include "capture/choice_option.h"
 #include "capture/launch_line.h"
 #include "capture/nothing_captured.h"
 #include "capture/output_folder.h"
 #include "capture/overhead_rounds.h"
 #include "capture/program_launch.h"
 #include "capture/shim_launch.h"
+#include "choice_option.h"
 #include "common_options.h"
-#include "tilepress/plural.h"
+#include "counted.h"
 #include "tilepress/program_search.h"
 #include "verb.h"
 
@@ -88,7 +88,7 @@ int verb_run(int argc, char** argv) {
   if (found.captured == 0) return report_nothing_captured(launch, session, found.seen, *program);
   if (found.mismatched_blocks > 0)
     return fail(kExitFailed,
-                "--verify: " + plural(found.mismatched_blocks, "block") + " decoded to other pixels");
+                "--verify: " + counted(found.mismatched_blocks, "block") + " decoded to other pixels");
   return kExitDone;
 }
 

@@ -93,15 +93,7 @@ std::optional<int> parse(int argc, char** argv, FramesOptions& options) {
   app.add_option("-j,--jobs", options.jobs, "Number of threads (default: 1); the results are the same for any number")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  app.add_option_function<std::string>(
-         "--progress",
-         [&](const std::string& text) {
-           const auto mode = parse_progress_mode(text);
-           if (!mode) throw CLI::ValidationError("--progress " + text + ": not one of auto, never, json");
-           options.progress = *mode;
-         },
-         "Progress on standard error (default: auto, one line on a terminal)")
-      ->type_name("auto|never|json");
+  add_progress_option(app, options.progress);
   add_cdf_options(app, options.cdf_path, options.cdf_frames);
   app.add_flag("--force", options.force, "Replace the run in the folder");
   app.add_flag("-q,--quiet", options.quiet, "Print no progress and no summary");

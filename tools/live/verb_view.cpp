@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "capture/choice_option.h"
 #include "capture/shim_path.h"
+#include "choice_option.h"
 #include "command_line.h"
 #include "frames/image_frames.h"
 #include "live/view/view_request.h"

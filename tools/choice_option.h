@@ -13,20 +13,23 @@ namespace tilepress {
 template <typename T>
 void add_choice_option(CLI::App& app, const std::string& flags, T& value,
                        const std::vector<std::pair<std::string, T>>& choices, const std::string& text) {
-  std::string words;
-  for (const auto& [word, meaning] : choices) words += (words.empty() ? "" : "|") + word;
+  std::string form, list;
+  for (const auto& [word, meaning] : choices) {
+    form += (form.empty() ? "" : "|") + word;
+    list += (list.empty() ? "" : ", ") + word;
+  }
   app.add_option_function<std::string>(
          flags,
-         [&value, choices, flags, words](const std::string& given) {
+         [&value, choices, flags, list](const std::string& given) {
            for (const auto& [word, meaning] : choices)
              if (word == given) {
                value = meaning;
                return;
              }
-           throw CLI::ValidationError(flags + ": '" + given + "' is none of " + words);
+           throw CLI::ValidationError(flags + " " + given + ": not one of " + list);
          },
          text)
-      ->type_name(words);
+      ->type_name(form);
 }
 
 }  // namespace tilepress
