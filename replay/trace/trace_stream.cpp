@@ -9,6 +9,7 @@ namespace tilepress {
 
 bool TraceStream::refill() {
   piece_offset_ += static_cast<uint64_t>(piece_end_ - piece_begin_);
+  piece_begin_ = piece_end_;  // next() may throw, and offset() is read after that
   const std::span<const uint8_t> piece = container_.next();
   piece_begin_ = at_ = piece.data();
   piece_end_ = piece.data() + piece.size();

@@ -109,6 +109,17 @@ TEST(DamagedTrace, TellsWhereAndWhy) {
   EXPECT_EQ(summary.frames, 1u);
 }
 
+TEST(DamagedTrace, IsCorruptAtTheOffsetWhereItsDamagedChunkBegins) {
+  TraceBuilder trace;
+  for (int i = 0; i < 40; ++i) trace.swap(3);
+  Bytes file = trace.file(64);
+  const size_t second_chunk = 2 + 4 + file[2];  // behind the signature and the first chunk, which is short
+  for (size_t i = 0; i < 4; ++i) file[second_chunk + i] = 0xff;
+  const TraceSummary summary = summary_of(file);
+  EXPECT_EQ(summary.state, TraceState::kCorrupt);
+  EXPECT_EQ(summary.offset, 64u);
+}
+
 TEST(DamagedTrace, WithAnyByteChangedIsReadWithoutHarm) {
   TraceBuilder trace;
   trace.make_current(3, 100);
