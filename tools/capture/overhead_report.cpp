@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "tilepress/csv_table.h"
+
 namespace tilepress {
 namespace {
 
@@ -58,20 +60,47 @@ std::string overhead_text(const std::vector<OverheadRun>& runs) {
              with.quantile_ns(0.5) / without.quantile_ns(0.5));
 }
 
+namespace {
+
+struct Row {
+  const OverheadRun& run;
+  const PresentSeries& times;
+  const PresentSeries* base;  ///< the same round without capture; null in rows that have no ratios
+};
+
+std::string ratio_text(const Row& row, double with, double (*figure)(const PresentSeries&)) {
+  return row.base == nullptr ? "" : fmt::format("{:.6f}", with / figure(*row.base));
+}
+std::string whole(double ns) {
+  return fmt::format("{:.0f}", ns);
+}
+double mean_of(const PresentSeries& times) {
+  return times.mean_ns();
+}
+double median_of(const PresentSeries& times) {
+  return times.quantile_ns(0.5);
+}
+
+constexpr CsvColumn<Row> kColumns[] = {
+    TILEPRESS_CSV_FIGURE("round", row.run.round + 1),
+    TILEPRESS_CSV_FIGURE("shim", side_name(row.run.captured)),
+    TILEPRESS_CSV_FIGURE("exit_status", row.run.exit_status),
+    TILEPRESS_CSV_FIGURE("frames", row.times.presents),
+    TILEPRESS_CSV_FIGURE("mean_ns", whole(mean_of(row.times))),
+    TILEPRESS_CSV_FIGURE("median_ns", whole(median_of(row.times))),
+    TILEPRESS_CSV_FIGURE("p95_ns", whole(row.times.quantile_ns(0.95))),
+    TILEPRESS_CSV_FIGURE("hook_ns", whole(row.times.hook_ns)),
+    TILEPRESS_CSV_FIGURE("ratio_mean", ratio_text(row, mean_of(row.times), mean_of)),
+    TILEPRESS_CSV_FIGURE("ratio_median", ratio_text(row, median_of(row.times), median_of)),
+};
+
+}  // namespace
+
 std::string overhead_csv(const std::vector<OverheadRun>& runs) {
-  std::string out =
-      "round,shim,exit_status,frames,mean_ns,median_ns,p95_ns,hook_ns,ratio_mean,ratio_median\n";
+  std::string out = csv_header(kColumns);
   for (const OverheadRun& run : runs) {
-    const PresentSeries& times = run.series;
-    out += fmt::format("{},{},{},{},{:.0f},{:.0f},{:.0f},{:.0f}", run.round + 1, side_name(run.captured),
-                       run.exit_status, times.presents, times.mean_ns(), times.quantile_ns(0.5),
-                       times.quantile_ns(0.95), times.hook_ns);
     const PresentSeries* base = run.captured ? without_shim(runs, run.round) : nullptr;
-    if (base != nullptr)
-      out += fmt::format(",{:.6f},{:.6f}\n", times.mean_ns() / base->mean_ns(),
-                         times.quantile_ns(0.5) / base->quantile_ns(0.5));
-    else
-      out += ",,\n";
+    append_csv_row(kColumns, Row{run, run.series, base}, out);
   }
   return out;
 }

@@ -56,23 +56,53 @@ std::string rate_text(const RunRecord& run, const std::string& scheme) {
   return fmt::format("{:.4f}", run.totals[static_cast<size_t>(found - run.scheme_names.begin())].rate());
 }
 
-std::string trace_rows(const TraceReplay& replay) {
-  const ReplayInput& input = replay.input();
-  const ReplayResult& result = replay.result();
-  const std::string begin =
-      fmt::format("{},{},{},{},{},{},{},{}", csv_field(input.name), csv_field(input.path),
-                  csv_field(input.category), status_text(result.status), result.frames_in_trace,
-                  result.frames_wanted, result.frames_captured, csv_number(result.seconds));
-  const RunRecord& run = result.run;
-  if (run.scheme_names.empty()) return begin + ",,,\n";
-  std::string rows;
+/// A scheme of a trace. A trace without a run has one row, without scheme.
+struct TraceRow {
+  const ReplayInput& input;
+  const ReplayResult& result;
+  std::string scheme, rate_payload, rate;  ///< rates: empty without measured frames
+};
+
+namespace trace_csv {
+using Row = TraceRow;
+constexpr CsvColumn<Row> kColumns[] = {
+    TILEPRESS_CSV_FIGURE("trace", row.input.name),
+    TILEPRESS_CSV_FIGURE("path", row.input.path),
+    TILEPRESS_CSV_FIGURE("category", row.input.category),
+    TILEPRESS_CSV_FIGURE("status", status_text(row.result.status)),
+    TILEPRESS_CSV_FIGURE("frames", row.result.frames_in_trace),
+    TILEPRESS_CSV_FIGURE("frames_wanted", row.result.frames_wanted),
+    TILEPRESS_CSV_FIGURE("frames_captured", row.result.frames_captured),
+    TILEPRESS_CSV_FIGURE("seconds", row.result.seconds),
+    csv_column<Row, &Row::scheme>("scheme"),
+    csv_column<Row, &Row::rate_payload>("rate_payload"),
+    csv_column<Row, &Row::rate>("rate"),
+};
+}  // namespace trace_csv
+
+namespace category_csv {
+using Row = CategoryMean;
+constexpr CsvColumn<Row> kColumns[] = {
+    TILEPRESS_CSV_FIGURE("category", category_label(row.category)),
+    csv_column<Row, &Row::scheme>("scheme"),
+    csv_column<Row, &Row::traces>("traces"),
+    csv_column<Row, &Row::rate_payload>("rate_payload"),
+    csv_column<Row, &Row::rate>("rate"),
+};
+}  // namespace category_csv
+
+void append_trace_rows(const TraceReplay& replay, std::string& out) {
+  const RunRecord& run = replay.result().run;
+  TraceRow row{replay.input(), replay.result(), {}, {}, {}};
+  if (run.scheme_names.empty()) append_csv_row(trace_csv::kColumns, row, out);
   for (size_t i = 0; i < run.scheme_names.size(); ++i) {
-    const bool measured = run.measured_frames > 0;
-    rows += fmt::format("{},{},{},{}\n", begin, csv_field(run.scheme_names[i]),
-                        measured ? csv_number(run.totals[i].rate_payload()) : "",
-                        measured ? csv_number(run.totals[i].rate()) : "");
+    row.scheme = run.scheme_names[i];
+    if (run.measured_frames > 0) {
+      row.rate_payload = csv_number(run.totals[i].rate_payload());
+      row.rate = csv_number(run.totals[i].rate());
+    }
+    append_csv_row(trace_csv::kColumns, row, out);
   }
-  return rows;
 }
 
 }  // namespace
@@ -109,13 +139,10 @@ std::string replay_table(const std::vector<std::unique_ptr<TraceReplay>>& replay
 
 Result<void> write_replay_csv(const std::string& folder,
                               const std::vector<std::unique_ptr<TraceReplay>>& replays) {
-  std::string traces =
-      "trace,path,category,status,frames,frames_wanted,frames_captured,seconds,scheme,rate_payload,rate\n";
-  for (const auto& replay : replays) traces += trace_rows(*replay);
-  std::string categories = "category,scheme,traces,rate_payload,rate\n";
+  std::string traces = csv_header(trace_csv::kColumns), categories = csv_header(category_csv::kColumns);
+  for (const auto& replay : replays) append_trace_rows(*replay, traces);
   for (const CategoryMean& mean : category_means(replays))
-    categories += fmt::format("{},{},{},{},{}\n", category_label(mean.category), csv_field(mean.scheme),
-                              mean.traces, csv_number(mean.rate_payload), csv_number(mean.rate));
+    append_csv_row(category_csv::kColumns, mean, categories);
   const auto written = write_whole_file(folder + "/replay.csv", traces, true);
   return written ? write_whole_file(folder + "/categories.csv", categories, true) : written;
 }

@@ -27,27 +27,57 @@ ReadTotals totals_of(const LayerTraffic& layer, uint32_t burst_bits) {
           .raw_bits = layer.traffic.raw_bursts * burst_bits};
 }
 
+namespace {
+
+struct Row {
+  uint64_t frame;
+  size_t surface;
+  const std::string& file;
+  const Layer& layer;
+  const LayerTraffic& read;
+  ReadTotals sum;
+};
+constexpr CsvColumn<Row> kColumns[] = {
+    csv_column<Row, &Row::frame>("frame"),
+    csv_column<Row, &Row::surface>("surface"),
+    TILEPRESS_CSV_FIGURE("file", row.file),
+    TILEPRESS_CSV_FIGURE("scheme", row.layer.surface.scheme.text),
+    TILEPRESS_CSV_FIGURE("x", row.layer.x),
+    TILEPRESS_CSV_FIGURE("y", row.layer.y),
+    TILEPRESS_CSV_FIGURE("width", row.layer.surface.width),
+    TILEPRESS_CSV_FIGURE("height", row.layer.surface.height),
+    TILEPRESS_CSV_FIGURE("blocks", row.sum.blocks),
+    TILEPRESS_CSV_FIGURE("hidden_blocks", row.sum.hidden),
+    TILEPRESS_CSV_FIGURE("outside_blocks", row.read.outside_blocks),
+    TILEPRESS_CSV_FIGURE("burst_bits", row.layer.surface.burst_bits),
+    TILEPRESS_CSV_FIGURE("payload_bursts", row.read.traffic.payload_bursts),
+    TILEPRESS_CSV_FIGURE("csb_bursts", row.read.traffic.csb_bursts),
+    TILEPRESS_CSV_FIGURE("table_bursts", row.read.traffic.table_bursts),
+    TILEPRESS_CSV_FIGURE("raw_bursts", row.read.traffic.raw_bursts),
+    TILEPRESS_CSV_FIGURE("moved_bits", row.sum.moved_bits()),
+    TILEPRESS_CSV_FIGURE("raw_bits", row.sum.raw_bits),
+    TILEPRESS_CSV_FIGURE("rate", row.sum.rate()),
+};
+
+}  // namespace
+
 std::string composed_csv_header() {
-  return "frame,surface,file,scheme,x,y,width,height,blocks,hidden_blocks,outside_blocks,burst_bits,"
-         "payload_bursts,csb_bursts,table_bursts,raw_bursts,moved_bits,raw_bits,rate\n";
+  return csv_header(kColumns);
 }
 
 std::string composed_csv_row(uint64_t frame, size_t surface, const std::string& file, const Layer& layer,
                              const LayerTraffic& read) {
-  const CompressedSurface& shown = layer.surface;
-  const ReadTotals sum = totals_of(read, shown.burst_bits);
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", frame, surface,
-                     csv_field(file), csv_field(shown.scheme.text), layer.x, layer.y, shown.width,
-                     shown.height, sum.blocks, sum.hidden, read.outside_blocks, shown.burst_bits,
-                     read.traffic.payload_bursts, read.traffic.csb_bursts, read.traffic.table_bursts,
-                     read.traffic.raw_bursts, sum.moved_bits(), sum.raw_bits, csv_number(sum.rate()));
+  std::string out;
+  append_csv_row(kColumns, Row{frame, surface, file, layer, read, totals_of(read, layer.surface.burst_bits)},
+                 out);
+  return out;
 }
 
 std::string composed_table(const ComposedSummary& summary, const CompositionOptions& options) {
-  std::string out = fmt::format(
-      "{} on {}x{} at {:g} Hz, {}{}\n", counted(summary.files.size(), "surface"), options.width, options.height,
-      summary.refresh_hz, counted(summary.frames, "frame"),
-      summary.without_first ? " (without the first, which has no dictionary yet)" : "");
+  std::string out =
+      fmt::format("{} on {}x{} at {:g} Hz, {}{}\n", counted(summary.files.size(), "surface"), options.width,
+                  options.height, summary.refresh_hz, counted(summary.frames, "frame"),
+                  summary.without_first ? " (without the first, which has no dictionary yet)" : "");
   out += fmt::format("  {:>10} {:>10} {:>10} {:>10} {:>10} {:>8}  {}\n", "raw MB/s", "MB/s", "payload", "CSB",
                      "tables", "rate", "surface");
   const auto add_line = [&](const ReadTotals& sum, const std::string& name) {

@@ -70,8 +70,9 @@ Result<BenchFrames> load_set(const ImageSet& set, const BenchOptions& options) {
 }
 
 std::string table_text(const std::string& set, const BenchFrames& frames, const std::vector<BenchRow>& rows) {
-  std::string out = fmt::format("{}: {} of {}x{}, SIMD target {}\n", set, counted(frames.pixels.size(), "frame"),
-                                frames.width, frames.height, simd_target());
+  std::string out =
+      fmt::format("{}: {} of {}x{}, SIMD target {}\n", set, counted(frames.pixels.size(), "frame"),
+                  frames.width, frames.height, simd_target());
   out += fmt::format("  {:<24} {:<11} {:>10} {:>12} {:>9} {:>8}\n", "scheme", "operation", "Mpixel/s",
                      "cycles/pixel", "/memcpy", "/LZ4");
   for (const BenchRow& row : rows)
@@ -80,19 +81,26 @@ std::string table_text(const std::string& set, const BenchFrames& frames, const 
   return out;
 }
 
-void append_csv(const std::string& set, const std::vector<BenchRow>& rows, std::string& csv) {
-  for (const BenchRow& row : rows)
-    csv += csv_field(set) + ',' + csv_field(row.scheme) + ',' + row.operation + ',' +
-           csv_number(row.mpixels_per_s) + ',' + csv_number(row.ratio_to_memcpy) + ',' +
-           csv_number(row.ratio_to_lz4) + ',' + csv_number(row.cycles_per_pixel) + '\n';
-}
+struct Row {
+  const std::string& set;
+  const BenchRow& figures;
+};
+constexpr CsvColumn<Row> kColumns[] = {
+    TILEPRESS_CSV_FIGURE("set", row.set),
+    TILEPRESS_CSV_FIGURE("scheme", row.figures.scheme),
+    TILEPRESS_CSV_FIGURE("operation", row.figures.operation),
+    TILEPRESS_CSV_FIGURE("mpixels_per_s", row.figures.mpixels_per_s),
+    TILEPRESS_CSV_FIGURE("ratio_to_memcpy", row.figures.ratio_to_memcpy),
+    TILEPRESS_CSV_FIGURE("ratio_to_lz4", row.figures.ratio_to_lz4),
+    TILEPRESS_CSV_FIGURE("cycles_per_pixel", row.figures.cycles_per_pixel),
+};
 
 std::optional<int> parse(int argc, char** argv, BenchOptions& options) {
-  CLI::App app(
-      "Measures the speed of each scheme, memcpy and LZ4. Prints a table on standard error.");
+  CLI::App app("Measures the speed of each scheme, memcpy and LZ4. Prints a table on standard error.");
   app.footer(kExamples);
   add_model_options(app, options.run);
-  app.add_option("-o,--output", options.csv_path, "CSV file for the table; - for standard output (default: none)")
+  app.add_option("-o,--output", options.csv_path,
+                 "CSV file for the table; - for standard output (default: none)")
       ->type_name("FILE");
   app.add_option("IMAGE", options.images, "Images or movies of 8 bits a channel, or raw .rgba files")
       ->type_name("...")
@@ -122,8 +130,9 @@ int verb_bench(int argc, char** argv) {
   if (const auto status = parse(argc, argv, options)) return *status;
   OutputFile file;  // opened before the work, so that a bad path fails at once
   if (!options.csv_path.empty())
-    if (const auto opened = file.open(options.csv_path, true); !opened) return fail(kExitFailed, opened.error());
-  std::string csv = "set,scheme,operation,mpixels_per_s,ratio_to_memcpy,ratio_to_lz4,cycles_per_pixel\n";
+    if (const auto opened = file.open(options.csv_path, true); !opened)
+      return fail(kExitFailed, opened.error());
+  std::string csv = csv_header(kColumns);
   for (const ImageSet& set : split_sets(options.images)) {
     const auto frames = load_set(set, options);
     if (!frames) return fail(kExitFailed, frames.error());
@@ -132,7 +141,7 @@ int verb_bench(int argc, char** argv) {
     const std::vector<BenchRow> rows =
         bench_set(*frames, options.run.schemes, options.run.model, options.rounds);
     show(table_text(set.name, *frames, rows));
-    append_csv(set.name, rows, csv);
+    for (const BenchRow& row : rows) append_csv_row(kColumns, Row{set.name, row}, csv);
   }
   if (!file.is_open()) return kExitDone;
   file.write(csv);

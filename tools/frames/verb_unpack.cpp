@@ -63,16 +63,31 @@ Result<void> write_part(const UnpackOptions& options, const Part& part, PixelFor
   return write_whole_file(path, native_bytes(part.words, format), options.force);
 }
 
-constexpr const char* kCsvHeader =
-    "frame,scheme,x,y,width,height,blocks,burst_bits,payload_bursts,csb_bursts,table_bursts,raw_bursts,"
-    "csb_lookups,csb_misses\n";
+struct Row {
+  const Part& part;
+  const CompressedSurface& surface;
+};
+constexpr CsvColumn<Row> kColumns[] = {
+    TILEPRESS_CSV_FIGURE("frame", row.part.number),
+    TILEPRESS_CSV_FIGURE("scheme", row.surface.scheme.text),
+    TILEPRESS_CSV_FIGURE("x", row.part.rect.x),
+    TILEPRESS_CSV_FIGURE("y", row.part.rect.y),
+    TILEPRESS_CSV_FIGURE("width", row.part.rect.width),
+    TILEPRESS_CSV_FIGURE("height", row.part.rect.height),
+    TILEPRESS_CSV_FIGURE("blocks", row.part.traffic.blocks),
+    TILEPRESS_CSV_FIGURE("burst_bits", row.surface.burst_bits),
+    TILEPRESS_CSV_FIGURE("payload_bursts", row.part.traffic.payload_bursts),
+    TILEPRESS_CSV_FIGURE("csb_bursts", row.part.traffic.csb_bursts),
+    TILEPRESS_CSV_FIGURE("table_bursts", row.part.traffic.table_bursts),
+    TILEPRESS_CSV_FIGURE("raw_bursts", row.part.traffic.raw_bursts),
+    TILEPRESS_CSV_FIGURE("csb_lookups", row.part.traffic.csb_lookups),
+    TILEPRESS_CSV_FIGURE("csb_misses", row.part.traffic.csb_misses),
+};
 
 std::string csv_row(const Part& part, const CompressedSurface& surface) {
-  const ReadTraffic& traffic = part.traffic;
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", part.number, csv_field(surface.scheme.text),
-                     part.rect.x, part.rect.y, part.rect.width, part.rect.height, traffic.blocks,
-                     surface.burst_bits, traffic.payload_bursts, traffic.csb_bursts, traffic.table_bursts,
-                     traffic.raw_bursts, traffic.csb_lookups, traffic.csb_misses);
+  std::string out;
+  append_csv_row(kColumns, Row{part, surface}, out);
+  return out;
 }
 
 std::string bursts_text(const Part& part, const CompressedSurface& surface) {
@@ -135,7 +150,7 @@ int unpack(const UnpackOptions& options) {
     std::filesystem::create_directories(options.output, code);
     if (code) return fail(kExitFailed, options.output + ": " + code.message());
   }
-  if (options.csv) std::fputs(kCsvHeader, stdout);
+  if (options.csv) std::fputs(csv_header(kColumns).c_str(), stdout);
   const auto written = unpack_frames(packed, options);
   if (!written) return fail(kExitFailed, written.error());
   if (!options.quiet && *written > 0)

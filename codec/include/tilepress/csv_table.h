@@ -71,6 +71,10 @@ constexpr CsvColumn<Row> csv_figure(std::string_view name) {
   return {name, [](const Row& row, std::string& out) { append_csv(out, std::invoke(figure, row)); }};
 }
 
+/// A figure as an expression of `row`, in tables whose row type has the local name Row.
+#define TILEPRESS_CSV_FIGURE(name, expression) \
+  ::tilepress::csv_figure<Row, [](const Row& row) { return expression; }>(name)
+
 /// Appends the names, with commas and without a line end.
 template <class Columns>
 void append_csv_names(const Columns& columns, std::string& out) {
