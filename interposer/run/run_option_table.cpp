@@ -13,9 +13,12 @@
 namespace tilepress {
 namespace {
 
+std::string_view shown(std::string_view value) {
+  return value.empty() ? "''" : value;
+}
+
 Result<void> refuse(const RunOption& option, std::string_view value) {
-  return Error{ErrorKind::kBadValue,
-               (value.empty() ? "''" : std::string(value)) + ": must be " + std::string(option.range)};
+  return about(shown(value), {ErrorKind::kBadValue, "must be " + std::string(option.range)});
 }
 
 // Below, `member` maps options, const or not, to a reference to one of their members.
@@ -158,7 +161,7 @@ std::string print_schemes(const RunOptions& options) {
 
 Result<void> set_frames(const RunOption&, RunOptions& options, std::string_view value) {
   auto set = FrameSet::parse(value);
-  if (!set) return about(value, set.error());
+  if (!set) return about(shown(value), set.error());
   options.frames = std::move(*set);
   return {};
 }
