@@ -40,7 +40,8 @@ class SourceFinder {
     for (const std::string& path : paths)
       if (const auto checked = check_path(path); !checked) return checked.error();
     for (const std::string& path : paths) {
-      if (const int signal = noted_signal(); signal != 0) return Error{ErrorKind::kSystem, signal_text(signal)};
+      if (const int signal = noted_signal(); signal != 0)
+        return Error{ErrorKind::kSystem, signal_text(signal)};
       struct stat status {};
       const bool regular = path != "-" && stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
       const auto added = !regular       ? add_pipe(path)

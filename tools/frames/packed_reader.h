@@ -15,8 +15,8 @@ namespace tilepress {
 /// Reads the surfaces of a file in any order. Error texts do not name the file.
 class PackedFileReader {
  public:
-  /// Checks every checksum, and that the file ends where it should: nothing is read of a damaged file. `in` is
-  /// not owned.
+  /// Checks every checksum, and that the file ends where it should: nothing is read of a damaged file. `in`
+  /// is not owned.
   Result<void> open(std::istream& in);
   uint32_t count() const { return static_cast<uint32_t>(offsets_.size()); }
   /// Fails if the surface is damaged in a way that its checksums hide. Precondition: index < count().

@@ -22,7 +22,8 @@ Result<void> RowSink::open(const RunOptions& options, const RunInfo& info, bool 
   for (const SchemeSpec& spec : options.schemes) scheme_names_.push_back(spec.text);
   if (options.output == "-") return print(schemes_csv_header());
   if (force)
-    for (const char* name : {"/frames.csv", "/schemes.csv", "/run.json"}) unlink((options.output + name).c_str());
+    for (const char* name : {"/frames.csv", "/schemes.csv", "/run.json"})
+      unlink((options.output + name).c_str());
   const auto created = writer_.create(options.output, info, options);
   if (!created && created.error().kind == ErrorKind::kExists)
     return Error{ErrorKind::kExists, created.error().text + " (--force replaces it)"};

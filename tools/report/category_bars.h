@@ -12,7 +12,8 @@ class CategoryBars {
  public:
   explicit CategoryBars(const Batch& batch) : batch_(batch) {}
   /// `scheme`: index in the batch. `shown`: the value as text.
-  void add(const std::string& category, size_t scheme, size_t workloads, double value, const std::string& shown);
+  void add(const std::string& category, size_t scheme, size_t workloads, double value,
+           const std::string& shown);
   bool empty() const { return rows_.empty(); }
   /// The axis is linear, because the length of a bar has to show its value.
   std::string rate_chart(const std::string& unit, const std::string& described) const;

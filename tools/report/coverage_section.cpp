@@ -41,7 +41,8 @@ Section coverage_section(const Batch& batch) {
   table.id = "table-coverage";
   table.caption = "FVC coverage and rates";
   table.header = {"workload", "fvc_coverage"};
-  const std::string chosen = batch.color_of("vdcp", batch.schemes.size()) < batch.schemes.size() ? "vdcp" : batch.baseline;
+  const std::string chosen =
+      batch.color_of("vdcp", batch.schemes.size()) < batch.schemes.size() ? "vdcp" : batch.baseline;
   std::string pick = "<label class=\"pick\">Scheme <select data-swap=\"coverage\">";
   std::string charts;
   for (size_t i = 0; i < batch.schemes.size(); ++i) {

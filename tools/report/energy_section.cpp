@@ -16,7 +16,8 @@ Section energy_section(const Batch& batch) {
   out.note = fmt::format(
       "saving = 1 − 1/rate − {0}/{1}. DRAM takes {1} pJ per byte moved. DCP's structures take {0} pJ per raw "
       "byte, static and dynamic. The rate is the category's harmonic mean. The paper has no energy for the "
-      "hardware of RAS and RED: this table leaves them out, and for HDCP it counts DCP's structures only. The "
+      "hardware of RAS and RED: this table leaves them out, and for HDCP it counts DCP's structures only. "
+      "The "
       "paper's 199.6 mW is the dynamic power of its own display: 720×1280 RGBA8, written and read 60 times a "
       "second, 442.37 MB/s × 451.2 pJ/B. The other 429.8 mW of its 629.4 mW are static.",
       batch.energy.structures_pj_per_byte, batch.energy.dram_pj_per_byte);

@@ -15,9 +15,10 @@ Section means_section(const Batch& batch, bool with_bursts) {
   Section out;
   out.id = with_bursts ? "means" : "means-payload";
   out.heading = with_bursts ? "Harmonic means per category" : "Harmonic means per category, without bursts";
-  out.note = with_bursts ? "Harmonic mean of the workloads' rates: n / Σ (1 / rate). Bursts, CSB and palettes count."
-                         : "Harmonic mean of the workloads' rates. Only payload and CSB bits count: the paper's "
-                           "first comparison.";
+  out.note = with_bursts
+                 ? "Harmonic mean of the workloads' rates: n / Σ (1 / rate). Bursts, CSB and palettes count."
+                 : "Harmonic mean of the workloads' rates. Only payload and CSB bits count: the paper's "
+                   "first comparison.";
   Table& table = out.table;
   table.id = "table-" + out.id;
   table.caption = out.heading;
@@ -40,7 +41,8 @@ Section means_section(const Batch& batch, bool with_bursts) {
 Section extra_section(const Batch& batch) {
   Section out{.id = "extra", .heading = "With further traffic"};
   out.note =
-      "Some schemes cause traffic that the rate leaves out, such as a second pass over the frame or checksums: "
+      "Some schemes cause traffic that the rate leaves out, such as a second pass over the frame or "
+      "checksums: "
       "column extra_bits of schemes.csv. Here the rate of a run is Σ raw / Σ (moved + extra).";
   Table& table = out.table;
   table.id = "table-extra";
@@ -61,8 +63,9 @@ Section extra_section(const Batch& batch) {
       }
       if (extra_bits == 0) continue;
       const double mean = harmonic_mean(with_extra);
-      table.rows.push_back({text_cell(category_label(category)), text_cell(scheme), count_cell(with_extra.size()),
-                            number_cell(harmonic_mean(batch.rates(category, scheme, true))), number_cell(mean)});
+      table.rows.push_back(
+          {text_cell(category_label(category)), text_cell(scheme), count_cell(with_extra.size()),
+           number_cell(harmonic_mean(batch.rates(category, scheme, true))), number_cell(mean)});
       bars.add(category, i, with_extra.size(), mean, shown_number(mean));
     }
   if (bars.empty()) return {};

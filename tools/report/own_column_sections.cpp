@@ -79,10 +79,12 @@ Section own_columns_section(const Batch& batch, const SchemeInfo& info) {
   }
   if (rows.empty()) return out;
   const std::string mean = shown_percent(first_share / static_cast<double>(rows.size()));
-  out.note += fmt::format(" Mean share of {} over the workloads: {}.", escape_html(coder_of(info.columns[0])->label), mean);
+  out.note += fmt::format(" Mean share of {} over the workloads: {}.",
+                          escape_html(coder_of(info.columns[0])->label), mean);
   if (info.name == kPublishedShare.scheme) out.note += fmt::format(" {}", kPublishedShare.text);
-  out.chart = chart_key(key) + row_chart(rows, AxisScale::linear(100, 20), RowShape::kStack,
-                                         "share of blocks in percent", out.heading + ". The table has all figures.");
+  out.chart =
+      chart_key(key) + row_chart(rows, AxisScale::linear(100, 20), RowShape::kStack,
+                                 "share of blocks in percent", out.heading + ". The table has all figures.");
   return out;
 }
 

@@ -8,9 +8,12 @@ namespace tilepress {
 Section published_section(const Batch& batch) {
   Section out{.id = "published", .heading = "Beside the paper's published means"};
   out.note =
-      "The paper's figures are means over its own 124 Android workloads (92 UI, 20 2D, 12 3D; 720×1280). This "
-      "report's figures come only from the runs above. The abstract and the conclusion of the paper have other "
-      "percentages, which do not agree with each other. The figures here are those of the paper's evaluation.";
+      "The paper's figures are means over its own 124 Android workloads (92 UI, 20 2D, 12 3D; 720×1280). "
+      "This "
+      "report's figures come only from the runs above. The abstract and the conclusion of the paper have "
+      "other "
+      "percentages, which do not agree with each other. The figures here are those of the paper's "
+      "evaluation.";
   Table& table = out.table;
   table.id = "table-published";
   table.caption = "Published mean, this report's mean of the same category, and of all its runs";

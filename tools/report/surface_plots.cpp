@@ -50,7 +50,8 @@ LinePlot rate_plot(const RunRecord& run, const std::string& file_start, const Fr
 }
 
 template <size_t N>
-LinePlot share_plot(LinePlot plot, const ShareLine (&lines)[N], const std::string& note, const Frames& frames) {
+LinePlot share_plot(LinePlot plot, const ShareLine (&lines)[N], const std::string& note,
+                    const Frames& frames) {
   plot.y_unit = "share of pixels";
   plot.y_max = 1;
   plot.note = note;
@@ -73,21 +74,23 @@ SurfacePlots plot_surface(const RunRecord& run, const std::string& slug, const F
   const std::string file_start = fmt::format("{}-surface{}", slug, first.surface);
   LinePlot rates = rate_plot(run, file_start, frames);
   if (rates.x.empty()) return out;
-  out.plots = {std::move(rates),
-               share_plot(empty_plot("change", "Pixel and colour change over time", file_start, frames), kChanges,
-                          "pixel_change: share of positions whose value differs from the frame before. "
-                          "color_change: half the sum of the differences of the colour counts.",
-                          frames),
-               share_plot(empty_plot("coverage", "Colours over time", file_start, frames), kColors,
-                          "fvc_coverage: share of pixels that the FVC counts. fvc_relative_coverage: its ratio to "
-                          "the share of the same number of most frequent colours. top100_coverage: share of the "
-                          "100 most frequent colours.",
-                          frames)};
+  out.plots = {
+      std::move(rates),
+      share_plot(empty_plot("change", "Pixel and colour change over time", file_start, frames), kChanges,
+                 "pixel_change: share of positions whose value differs from the frame before. "
+                 "color_change: half the sum of the differences of the colour counts.",
+                 frames),
+      share_plot(empty_plot("coverage", "Colours over time", file_start, frames), kColors,
+                 "fvc_coverage: share of pixels that the FVC counts. fvc_relative_coverage: its ratio to "
+                 "the share of the same number of most frequent colours. top100_coverage: share of the "
+                 "100 most frequent colours.",
+                 frames)};
   for (LinePlot& plot : out.plots) {
     const size_t width = reduce_line_plot(plot, max_points);
     if (width > 1)
       plot.note += fmt::format(
-          " The chart shows the smallest and the largest value of every {} frames. The tables count every frame.",
+          " The chart shows the smallest and the largest value of every {} frames. The tables count every "
+          "frame.",
           width);
   }
   return out;

@@ -18,7 +18,8 @@ std::string run_link(const Batch& batch, const RunSummary& run) {
 Section workloads_section(const Batch& batch) {
   Section out{.id = "workloads", .heading = "Workloads"};
   out.note =
-      "Rates are Σ raw bits / Σ moved bits over the frames of a run. Metrics are means over its frames. Warm-up "
+      "Rates are Σ raw bits / Σ moved bits over the frames of a run. Metrics are means over its frames. "
+      "Warm-up "
       "frames (the first frame of each surface) are in neither.";
   out.table.id = "table-workloads";
   out.table.caption = "One row per run";
@@ -48,7 +49,8 @@ Section rates_section(const Batch& batch, const std::vector<std::string>& scheme
   out.heading = with_bursts ? "Rate per workload" : "Rate per workload, DCP schemes without bursts";
   const std::string formula =
       with_bursts ? "Σ raw / Σ (bursts · burst bits + CSB + palette bits)" : "Σ raw / Σ (payload + CSB bits)";
-  out.note = formula + ". Workloads have the paper's order: by category, and within a category by the rate of " +
+  out.note = formula +
+             ". Workloads have the paper's order: by category, and within a category by the rate of " +
              escape_html(batch.baseline) + " without bursts, smallest first.";
   Table& table = out.table;
   table.id = "table-" + out.id;
@@ -77,10 +79,12 @@ Section rates_section(const Batch& batch, const std::vector<std::string>& scheme
     table.rows.push_back(std::move(cells));
   }
   if (range.high > 0)
-    out.chart = chart_key(key) +
-                row_chart(rows, AxisScale::for_rates(range.low, range.high), RowShape::kDots, "rate (raw / moved bits)",
-                          fmt::format("{}: {} workloads, rates from {} to {}. The table has all figures.",
-                                      out.heading, rows.size(), shown_number(range.low), shown_number(range.high)));
+    out.chart =
+        chart_key(key) +
+        row_chart(rows, AxisScale::for_rates(range.low, range.high), RowShape::kDots,
+                  "rate (raw / moved bits)",
+                  fmt::format("{}: {} workloads, rates from {} to {}. The table has all figures.",
+                              out.heading, rows.size(), shown_number(range.low), shown_number(range.high)));
   return out;
 }
 

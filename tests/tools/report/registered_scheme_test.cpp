@@ -1,4 +1,5 @@
-// A scheme that registers itself is on the report page and in gem5's statistics with its own label and columns.
+// A scheme that registers itself is on the report page and in gem5's statistics with its own label and
+// columns.
 #include <gtest/gtest.h>
 
 #include "report/export/gem5_stats.h"
@@ -64,7 +65,8 @@ class RegisteredScheme : public testing::Test {
 
 TEST_F(RegisteredScheme, HasItsRatesAndColumnsOnThePage) {
   const std::string html = page();
-  EXPECT_NE(html.find("<section id=\"toys\">\n<h2>Toy &lt;1&gt;: columns of its own</h2>"), std::string::npos);
+  EXPECT_NE(html.find("<section id=\"toys\">\n<h2>Toy &lt;1&gt;: columns of its own</h2>"),
+            std::string::npos);
   EXPECT_NE(html.find("data-h=\"toy_hits\" data-v=\"7\""), std::string::npos);
   EXPECT_NE(html.find("data-h=\"toy_misses\" data-v=\"5\""), std::string::npos);
   EXPECT_NE(html.find("data-h=\"rate toy\" data-v=\"2\""), std::string::npos);
