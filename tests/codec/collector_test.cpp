@@ -47,10 +47,10 @@ class Stream {
 
 void show(Collector& collector, const std::vector<uint32_t>& pixels) {
   const auto count = static_cast<uint32_t>(pixels.size());
-  std::array<uint32_t, kBlockPixels> block{};
-  std::copy(pixels.begin(), pixels.end(), block.begin());
   if (std::count(pixels.begin(), pixels.end(), pixels[0]) == count)
     return collector.see_run(pixels[0], count);
+  std::array<uint32_t, kBlockPixels> block{};
+  std::copy(pixels.begin(), pixels.end(), block.begin());
   FewColors few;
   const bool is_few = count == kBlockPixels && pixel_kernels().split(block.data(), few);
   collector.see({.pixels = block.data(),
@@ -164,4 +164,28 @@ TEST(Collector, HoldsWhatThePlainFvcHoldsAfterEverySeventhBlock) {
       }
     }
   });
+}
+
+TEST(Collector, HoldsWhatThePlainFvcHoldsWhereMissesMeetOnlyFrequentColours) {
+  for (const FvcPolicy policy : {FvcPolicy::kLfc, FvcPolicy::k2Lfc})
+    for (uint32_t seed = 1; seed <= 40; ++seed) {
+      const FvcConfig config{.entries = 16u << seed % 3, .policy = policy};
+      patterns::Dice dice(seed);
+      Collector collector(config, traits(PixelFormat::kRgba8));
+      Fvc plain(config, traits(PixelFormat::kRgba8));
+      const auto see = [&](const std::vector<uint32_t>& pixels) {
+        plain.see_all(pixels.data(), static_cast<uint32_t>(pixels.size()));
+        show(collector, pixels);
+      };
+      for (uint32_t color = 0; color < config.entries; ++color)
+        see(std::vector<uint32_t>(100 + dice.below(100), color));
+      for (uint32_t block = 0; block < 60; ++block) {
+        std::vector<uint32_t> pixels(kBlockPixels);
+        for (uint32_t& pixel : pixels) pixel = 1000 + dice.below(dice.below(4) == 0 ? 3 : 50000);
+        see(pixels);
+        see({pixels[5], pixels[60]});
+        collector.end_frame();
+        ASSERT_EQ(fvc_differences(plain, collector.fvc()), "") << "seed " << seed << ", block " << block;
+      }
+    }
 }
