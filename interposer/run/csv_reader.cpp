@@ -1,10 +1,6 @@
 // CSV reader: one pass over the bytes, with the quotes of RFC 4180.
 #include "tilepress/csv_reader.h"
 
-#include <algorithm>
-
-#include "tilepress/csv_rows.h"
-
 namespace tilepress {
 
 bool CsvReader::next(std::vector<std::string>& fields) {
@@ -43,17 +39,6 @@ bool CsvReader::next(std::vector<std::string>& fields) {
   }
   fields.clear();
   return false;
-}
-
-std::optional<size_t> CsvRecords::find(std::string_view name) const {
-  const auto found = std::find(header_.rbegin(), header_.rend(), name);
-  if (found == header_.rend()) return std::nullopt;
-  return static_cast<size_t>(header_.rend() - found) - 1;
-}
-
-Error CsvRecords::fault(std::string_view name, const std::string& reason) const {
-  return {ErrorKind::kFile,
-          "record " + std::to_string(reader_.record()) + ": " + std::string(name) + ": " + reason};
 }
 
 }  // namespace tilepress

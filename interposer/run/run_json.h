@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tilepress/run_directory.h"
+#include "tilepress/run_info.h"
 #include "tilepress/run_reader.h"
 
 namespace tilepress {

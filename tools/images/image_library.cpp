@@ -4,8 +4,6 @@
 #include <dlfcn.h>
 
 #include "capture/shim_path.h"
-#include "images/image_kind.h"
-#include "images/png_image.h"
 
 namespace tilepress {
 namespace {
@@ -26,16 +24,6 @@ Result<const ImageLibrary*> load() {
 Result<const ImageLibrary*> image_library() {
   static const Result<const ImageLibrary*> loaded = load();
   return loaded;
-}
-
-OpenedImage open_image(const std::string& path) {
-  if (image_kind_of_file(path.c_str()).reader == ImageReader::kPng) {
-    OpenedImage png = open_png(path);
-    if (!png || *png != nullptr) return png;
-  }
-  const auto library = image_library();
-  if (!library) return library.error();
-  return (*library)->open(path);
 }
 
 }  // namespace tilepress

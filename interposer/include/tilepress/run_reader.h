@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "tilepress/run_directory.h"
+#include "tilepress/run_info.h"
+#include "tilepress/run_options.h"
+#include "tilepress/statistics.h"
 
 namespace tilepress {
 
@@ -29,7 +31,7 @@ struct RunRecord {
   /// Sums over the presented frames that are not warmup, in the order of scheme_names.
   std::vector<SchemeStatistics> totals;
   uint64_t measured_frames = 0;  ///< presented frames that are not warmup
-  /// The same for targets (run_directory.h).
+  /// The same for targets (run_info.h).
   std::vector<SchemeStatistics> target_totals;
   uint64_t measured_targets = 0;
   /// Bytes of frames.csv and schemes.csv that hold these frames. Incomplete rows follow them.

@@ -1,4 +1,4 @@
-// Run reader: the rows of a run as statistics.
+// Read run: the rows of a run as statistics.
 #include "tilepress/run_reader.h"
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Trace summary: container, stream, events and survey, put together.
+// Summarize trace: puts container, stream, events and survey together.
 #include "tilepress/trace_summary.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Scheme specifications: the grammar `name:key=value,key=value`; ranges come from the scheme's key table.
+// Scheme parser: the grammar `name:key=value,key=value`; ranges come from the scheme's key table.
 #include "tilepress/scheme_spec.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Run options: walks over the table of options.
+// Run option parser: walks over the table of options.
 #include "tilepress/run_options.h"
 
 #include <cstdlib>

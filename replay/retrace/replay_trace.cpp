@@ -1,4 +1,4 @@
-// Trace replay: reads the trace, tries the roads, and moves the run into its place.
+// Replay trace: reads the trace, tries the roads, and moves the run into its place.
 #include "tilepress/trace_replay.h"
 
 #include <spdlog/spdlog.h>
