@@ -224,6 +224,7 @@ TILEPRESS_VBMI bool load_slots(const uint32_t* top_left, uint32_t stride, uint32
                                const SlotLookups& lookups) {
   BlockWords words;
   if (load(top_left, stride, pixels, words)) return true;
+  if (lookups.empty()) return false;
   const Keys keys = keys_of(words);
   for (const IndexLookup& each : lookups.dictionaries)
     index_slots(keys, *each.table, each.indices, each.widths);

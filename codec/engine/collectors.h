@@ -96,8 +96,9 @@ class Collectors final : public CcdSource {
 
 inline bool Collectors::load(const uint32_t* top_left, uint32_t stride, uint32_t* pixels) {
   settle_run();  // a look-up must see the FVC as the block meets it
-  const bool uniform = lookups_.empty() ? pixel_kernels().load_traversal(top_left, stride, pixels)
-                                        : slot_kernels().load(top_left, stride, pixels, lookups_);
+  const bool by_slots = slot_table_pays(0) || !lookups_.empty();
+  const bool uniform = by_slots ? slot_kernels().load(top_left, stride, pixels, lookups_)
+                                : pixel_kernels().load_traversal(top_left, stride, pixels);
   if (uniform) return true;
   few_ = wants_few_ ? few_color_search_.look(pixels) : nullptr;
   for (Dictionary* dictionary : slow_) dictionary->look_up(pixels, few_);
