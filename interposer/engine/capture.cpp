@@ -36,15 +36,15 @@ CaptureSettings CaptureSettings::from_environment() {
 Capture::Capture(const TilepressHost& host)
     : pid_(getpid()),
       settings_(CaptureSettings::from_environment()),
-      log_(make_shim_log(settings_.options.log_file, settings_.options.log_level)),
+      log_(settings_.options.log_file, settings_.options.log_level),
       times_(pid_),
       policy_(settings_.options.readback),
-      sources_(host, settings_.options.readback == Readback::kInContext, *log_),
-      run_(settings_.options, pid_, *log_),
-      taker_(settings_.options, registry_, policy_, run_.counts(), *log_, now_ns()),
-      targets_(registry_, sources_, run_, taker_, *log_) {
+      sources_(host, settings_.options.readback == Readback::kInContext, log_),
+      run_(settings_.options, pid_, log_),
+      taker_(settings_.options, registry_, policy_, run_.counts(), log_, now_ns()),
+      targets_(registry_, sources_, run_, taker_, log_) {
   if (const char* target = std::getenv("TILEPRESS_SIMD")) force_simd_target(target);  // unknown: the best one
-  if (!settings_.error.empty()) log_->error(settings_.error);
+  if (!settings_.error.empty()) log_.error(settings_.error);
 }
 
 bool Capture::is_capturing() const {
@@ -87,7 +87,7 @@ Take Capture::not_described(const TilepressPresent& present, const Error& reason
     const std::lock_guard lock(mutex_);
     warns = warned_.insert(line).second;
   }
-  log_->log(warns ? spdlog::level::warn : spdlog::level::debug, line);
+  warns ? log_.warn(line) : log_.debug(line);
   return {};
 }
 

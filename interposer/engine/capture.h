@@ -50,7 +50,7 @@ class Capture {
 
   const int64_t pid_;
   const CaptureSettings settings_;
-  const std::unique_ptr<ShimLog> log_;
+  ShimLog log_;
   PresentTimes times_;
   SurfaceRegistry registry_;
   ReadPolicy policy_;

@@ -2,6 +2,7 @@
 #include "interposer/engine/shim_log.h"
 
 #include <fcntl.h>
+#include <spdlog/logger.h>
 #include <spdlog/sinks/sink.h>
 #include <unistd.h>
 
@@ -44,11 +45,25 @@ spdlog::level::level_enum level_of(std::string_view name) {
 
 }  // namespace
 
-std::unique_ptr<ShimLog> make_shim_log(const std::string& path, std::string_view level) {
-  auto log = std::make_unique<ShimLog>("tilepress", std::make_shared<AppendingSink>(path));
-  log->set_level(path.empty() ? spdlog::level::off : level_of(level));
-  log->set_error_handler([](const std::string&) {});  // the default one writes to standard error
-  return log;
+ShimLog::ShimLog(const std::string& path, std::string_view level)
+    : logger_(std::make_unique<spdlog::logger>("tilepress", std::make_shared<AppendingSink>(path))) {
+  logger_->set_level(path.empty() ? spdlog::level::off : level_of(level));
+  logger_->set_error_handler([](const std::string&) {});  // the default one writes to standard error
+}
+
+ShimLog::~ShimLog() = default;
+
+void ShimLog::error(std::string_view text) {
+  logger_->error(text);
+}
+void ShimLog::warn(std::string_view text) {
+  logger_->warn(text);
+}
+void ShimLog::info(std::string_view text) {
+  logger_->info(text);
+}
+void ShimLog::debug(std::string_view text) {
+  logger_->debug(text);
 }
 
 }  // namespace tilepress

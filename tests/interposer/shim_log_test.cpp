@@ -27,11 +27,11 @@ class ShimLogTest : public ::testing::Test {
   }
   std::string lines_of_level(const char* level) {
     std::filesystem::remove(path());
-    const auto log = make_shim_log(path(), level);
-    log->error("error");
-    log->warn("warn");
-    log->info("info");
-    log->debug("debug");
+    ShimLog log(path(), level);
+    log.error("error");
+    log.warn("warn");
+    log.info("info");
+    log.debug("debug");
     return text();
   }
   std::string folder_;
@@ -50,32 +50,32 @@ TEST_F(ShimLogTest, HasTheLinesOfItsLevelAndAbove) {
 }
 
 TEST_F(ShimLogTest, WritesATextAsItIs) {
-  make_shim_log(path(), "warn")->warn(std::string("{} {0:d} %v %n 100%"));
+  ShimLog(path(), "warn").warn(std::string("{} {0:d} %v %n 100%"));
   EXPECT_EQ(text(), "tilepress: {} {0:d} %v %n 100%\n");
 }
 
 TEST_F(ShimLogTest, GoesOnWithAFileThatIsThere) {
   std::ofstream(path()) << "before\n";
-  make_shim_log(path(), "warn")->warn("after");
+  ShimLog(path(), "warn").warn("after");
   EXPECT_EQ(text(), "before\ntilepress: after\n");
 }
 
 TEST_F(ShimLogTest, SaysNothingOnTheProgramsStreamsWhereNoFileCanBeWritten) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  make_shim_log("", "debug")->error("lost");
-  make_shim_log(folder_ + "/missing/log", "debug")->error("lost");
-  make_shim_log(folder_, "debug")->error("lost");
+  ShimLog("", "debug").error("lost");
+  ShimLog(folder_ + "/missing/log", "debug").error("lost");
+  ShimLog(folder_, "debug").error("lost");
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST_F(ShimLogTest, WorksInAForkedChild) {
-  const auto log = make_shim_log(path(), "warn");
-  log->warn("parent");
+  ShimLog log(path(), "warn");
+  log.warn("parent");
   const pid_t child = fork();
   if (child == 0) {
-    log->warn("child");
+    log.warn("child");
     _exit(0);
   }
   int status = -1;
@@ -85,13 +85,13 @@ TEST_F(ShimLogTest, WorksInAForkedChild) {
 }
 
 TEST_F(ShimLogTest, KeepsNoDescriptorOpen) {
-  const auto log = make_shim_log(path(), "warn");
+  ShimLog log(path(), "warn");
   const auto open_files = [] {
     const std::filesystem::directory_iterator all("/proc/self/fd");
     return std::distance(begin(all), end(all));
   };
   const auto before = open_files();
-  for (int i = 0; i < 10; ++i) log->warn("line");
+  for (int i = 0; i < 10; ++i) log.warn("line");
   EXPECT_EQ(open_files(), before);
 }
 
