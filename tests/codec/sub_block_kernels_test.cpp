@@ -138,7 +138,9 @@ TEST(HuffmanBlocks, CodeSumAddsTheLengthsOnEveryTarget) {
       wanted += std::min(bits, raw_bits);
     }
     on_every_target([&] {
-      if (code_sum_kernel() != nullptr) ASSERT_EQ(code_sum_kernel()(indices, lengths, raw_bits), wanted);
+      if (code_sum_kernel() != nullptr) {
+        ASSERT_EQ(code_sum_kernel()(indices, lengths, raw_bits), wanted);
+      }
     });
   }
 }
