@@ -43,7 +43,7 @@ class StandardErrorSink : public spdlog::sinks::base_sink<std::mutex> {
   }
   void show_progress(std::string_view line) {
     const std::lock_guard lock(mutex_);
-    write_all("\r" + std::string(line) + "\033[K");
+    write_all(std::string("\r").append(line).append("\033[K"));
     progress_shown_ = true;
   }
 
