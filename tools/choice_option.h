@@ -1,4 +1,4 @@
-// Choice option: a command-line option whose value is one of a few words.
+// Choice option: a command-line option that takes one of a few words.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// Nothing captured: tells the user why `tilepress run` has no frames.
+// Nothing captured: explains why `tilepress run` has no frames.
 #pragma once
 
 #include <string>
