@@ -132,7 +132,7 @@ bool TraceReplay::read_trace() {
   }
   result_.frames_wanted = count_wanted(trace_, run_options_);
   if (result_.frames_wanted == 0 && !triggered)
-    return fail("none of its " + frames_text + " is asked for", ReplayStatus::kNothingCaptured);
+    return fail("--frames and --every select none of its " + frames_text, ReplayStatus::kNothingCaptured);
   const auto roads = replay_roads(trace_.api, options_.retracer, options_.display);
   if (!roads) return fail(roads.error().text);
   frames_wanted_ = result_.frames_wanted;

@@ -52,7 +52,7 @@ std::optional<int> parse_options(int argc, char** argv, RecordOptions& options) 
 
 struct Recording {
   int program_status = 0;
-  Result<TraceSummary> trace;  ///< with frames, or the reason why the recording is of no use
+  Result<TraceSummary> trace;  ///< of a recording with frames; or why the recording cannot be used
 };
 
 Result<TraceSummary> look_at(const std::string& file, TraceApi api) {
