@@ -26,7 +26,8 @@ Result<FrameSet> FrameSet::parse(std::string_view text) {
     const std::string_view last_text = dash == std::string_view::npos ? first_text : part.substr(dash + 1);
     Range range{};
     if (!parse_number(first_text, range.first) || !parse_number(last_text, range.last))
-      return Error{ErrorKind::kBadValue, "'" + std::string(part) + "' is not a frame or a range of frames"};
+      return Error{ErrorKind::kBadValue,
+                   std::string("'").append(part).append("' is not a frame or a range of frames")};
     if (range.first > range.last) return Error{ErrorKind::kBadValue, "reversed range " + std::string(part)};
     set.ranges_.push_back(range);
   }
