@@ -1,0 +1,99 @@
+// Figure: the table of kinds, the figures of a study, and their files' texts.
+#include "study/figures/figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "study/figures/figure_makers.h"
+#include "tilepress/csv_table.h"
+
+namespace tilepress {
+namespace {
+
+constexpr FigureKind kKinds[] = {
+    {"metrics over time", metrics_over_time},
+    {"colour CDF", color_cdf_figure},
+    {"coverage against rate", coverage_against_rate},
+    {"rate over an axis", rate_over_axis},
+    {"relative coverage over an axis", relative_coverage_over_axis},
+    {"rates of workloads", rates_of_workloads},
+    {"means", means_of_categories},
+    {"hybrid shares", hybrid_shares},
+};
+
+void append_record(const std::vector<std::string>& cells, std::string& out) {
+  for (size_t i = 0; i < cells.size(); ++i) {
+    if (i > 0) out += ',';
+    append_csv(out, cells[i]);
+  }
+  out += '\n';
+}
+
+}  // namespace
+
+std::string FigureTable::csv() const {
+  std::string out;
+  append_record(header, out);
+  for (const auto& row : rows) append_record(row, out);
+  return out;
+}
+
+std::span<const FigureKind> figure_kinds() {
+  return kKinds;
+}
+
+Result<Figure> make_figure(const StudyData& data, const FigureSpec& spec) {
+  const auto kind = std::find_if(std::begin(kKinds), std::end(kKinds),
+                                 [&](const FigureKind& known) { return spec.kind == known.name; });
+  if (kind == std::end(kKinds))
+    return Error{ErrorKind::kBadValue,
+                 fmt::format("figure {}: there is no kind of figure '{}'", spec.name, spec.kind)};
+  auto figure = kind->make(data, spec);
+  if (!figure) return about("figure " + spec.name, figure.error());
+  if (figure->table.rows.empty())
+    return Error{ErrorKind::kUnsupported,
+                 fmt::format("figure {}: the study has no results for it", spec.name)};
+  return figure;
+}
+
+std::vector<FigureSpec> figure_specs(const StudyData& data) {
+  if (!data.spec.figures.empty()) return data.spec.figures;
+  std::vector<FigureSpec> out;
+  for (const FigureAxis& axis : data.spec.axes)
+    out.push_back({.name = axis.name,
+                   .kind = "rate over an axis",
+                   .title = (axis.title.empty() ? axis.name : axis.title) + " against rate",
+                   .axis = axis.name});
+  out.push_back({.name = "rates", .kind = "rates of workloads", .title = "Rates of the workloads"});
+  out.push_back({.name = "means", .kind = "means", .title = "Harmonic means"});
+  return out;
+}
+
+std::string figures_json(const StudyData& data, const std::vector<Figure>& figures) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Figure& figure : figures) {
+    nlohmann::ordered_json published = nlohmann::ordered_json::array();
+    for (const PublishedPoint& point : figure.spec.published)
+      published.push_back({{"x", point.x}, {"category", point.category}, {"value", point.value}});
+    list.push_back({{"name", figure.spec.name},
+                    {"kind", figure.spec.kind},
+                    {"title", figure.spec.title},
+                    {"by_workload", figure.spec.by_workload},
+                    {"x_column", figure.x_column},
+                    {"y_column", figure.y_column},
+                    {"x_label", figure.x_label},
+                    {"y_label", figure.y_label},
+                    {"x_scale", figure.x_scale},
+                    {"x_order", figure.x_order},
+                    {"share", figure.share},
+                    {"published", published}});
+  }
+  nlohmann::ordered_json categories = nlohmann::ordered_json::array();
+  for (const std::string& category : data.categories())
+    categories.push_back({{"name", category}, {"title", data.category_title(category)}});
+  return nlohmann::ordered_json{{"categories", categories}, {"figures", list}}.dump(1) + "\n";
+}
+
+}  // namespace tilepress

@@ -1,0 +1,125 @@
+// Study data: reads the files and builds the look-ups.
+#include "study/figures/study_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <tuple>
+
+namespace tilepress {
+namespace {
+
+struct StudyFile {
+  const char* name;
+  StudyTable StudyData::*table;
+  bool required;
+};
+constexpr StudyFile kFiles[] = {
+    {"results.csv", &StudyData::results, true},      {"means.csv", &StudyData::means, true},
+    {"workloads.csv", &StudyData::workloads, true},  {"frame_metrics.csv", &StudyData::frame_metrics, false},
+    {"color_cdf.csv", &StudyData::color_cdf, false}, {"frame_rates.csv", &StudyData::frame_rates, false},
+};
+
+double number_or_nan(const StudyTable& table, std::optional<size_t> row, std::string_view column) {
+  return row ? table.number(*row, column) : NAN;
+}
+
+}  // namespace
+
+std::optional<size_t> StudyData::result_row(const std::string& workload,
+                                            const std::string& configuration) const {
+  const auto found = result_rows_.find({workload, configuration});
+  return found == result_rows_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<size_t> StudyData::mean_row(const std::string& category,
+                                          const std::string& configuration) const {
+  const auto found = mean_rows_.find({category, configuration});
+  return found == mean_rows_.end() ? std::nullopt : std::optional(found->second);
+}
+
+double StudyData::result(const std::string& workload, const std::string& configuration,
+                         std::string_view column) const {
+  return number_or_nan(results, result_row(workload, configuration), column);
+}
+
+double StudyData::mean(const std::string& category, const std::string& configuration,
+                       std::string_view column) const {
+  return number_or_nan(means, mean_row(category, configuration), column);
+}
+
+std::string StudyData::category_title(const std::string& category) const {
+  for (const FigureCategory& known : spec.categories)
+    if (known.name == category) return known.title;
+  if (category == kAllCategories) return "all workloads";
+  return category.empty() ? "no category" : category;
+}
+
+std::string StudyData::order_configuration() const {
+  const bool has_dcp =
+      std::find(configurations_.begin(), configurations_.end(), "dcp") != configurations_.end();
+  if (has_dcp) return "dcp";
+  return configurations_.empty() ? "" : configurations_.front();
+}
+
+void StudyData::index() {
+  std::set<std::string> known;
+  for (size_t row = 0; row < results.row_count(); ++row) {
+    const std::string& configuration = results.text(row, "configuration");
+    result_rows_[{results.text(row, "workload"), configuration}] = row;
+    if (known.insert(configuration).second) configurations_.push_back(configuration);
+  }
+  index_means();
+  order_workloads();
+}
+
+void StudyData::index_means() {
+  std::set<std::string> known;
+  for (size_t row = 0; row < means.row_count(); ++row) {
+    const std::string& category = means.text(row, "category");
+    mean_rows_[{category, means.text(row, "configuration")}] = row;
+    known.insert(category);
+  }
+  const auto take = [&](const std::string& category) {
+    if (category != kAllCategories && known.erase(category) > 0) categories_.push_back(category);
+  };
+  for (const FigureCategory& category : spec.categories) take(category.name);
+  for (size_t row = 0; row < means.row_count(); ++row) take(means.text(row, "category"));
+  if (known.contains(kAllCategories)) categories_.push_back(kAllCategories);
+}
+
+void StudyData::order_workloads() {
+  const std::string configuration = order_configuration();
+  std::vector<std::tuple<size_t, double, size_t>> keys;
+  for (size_t row = 0; row < workloads.row_count(); ++row) {
+    const std::string& category = workloads.text(row, "category");
+    const std::string& workload = workloads.text(row, "workload");
+    const auto first = result_rows_.lower_bound({workload, ""});
+    if (first == result_rows_.end() || first->first.first != workload) continue;
+    double rate = result(workload, configuration, "rate_payload");
+    if (std::isnan(rate)) rate = INFINITY;
+    const auto place = std::find(categories_.begin(), categories_.end(), category);
+    keys.emplace_back(static_cast<size_t>(place - categories_.begin()), rate, row);
+  }
+  std::sort(keys.begin(), keys.end());
+  for (const auto& key : keys) ordered_workloads_.push_back(std::get<2>(key));
+}
+
+Result<StudyData> read_study_data(const std::string& study_folder) {
+  StudyData data;
+  auto spec = read_study_spec(study_folder + "/study.json");
+  if (!spec) return spec.error();
+  data.spec = std::move(*spec);
+  for (const StudyFile& file : kFiles) {
+    const std::string path = study_folder + "/" + file.name;
+    if (!file.required && !std::filesystem::exists(path)) continue;
+    auto table = StudyTable::read(path);
+    if (!table) return table.error();
+    data.*file.table = std::move(*table);
+  }
+  data.index();
+  return data;
+}
+
+}  // namespace tilepress

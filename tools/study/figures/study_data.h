@@ -1,0 +1,58 @@
+// Study data: the files of a finished study, and look-ups in them.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "study/figures/study_spec.h"
+#include "study/figures/study_table.h"
+
+namespace tilepress {
+
+/// The category of means.csv that holds every workload.
+inline constexpr const char* kAllCategories = "all";
+
+class StudyData {
+ public:
+  StudySpec spec;
+  StudyTable results, means, workloads, frame_metrics, color_cdf, frame_rates;
+
+  /// Row of results.csv.
+  std::optional<size_t> result_row(const std::string& workload, const std::string& configuration) const;
+  /// Row of means.csv.
+  std::optional<size_t> mean_row(const std::string& category, const std::string& configuration) const;
+  /// A number of these rows; NaN without the row.
+  double result(const std::string& workload, const std::string& configuration, std::string_view column) const;
+  double mean(const std::string& category, const std::string& configuration, std::string_view column) const;
+
+  /// Categories of means.csv in the study's order. kAllCategories stands last, or alone.
+  const std::vector<std::string>& categories() const { return categories_; }
+  /// The title that the study gives a category.
+  std::string category_title(const std::string& category) const;
+  /// Rows of workloads.csv with results, in the paper's order: by category, within a category by
+  /// rate_payload of DCP (or of the first configuration), smallest first.
+  const std::vector<size_t>& ordered_workloads() const { return ordered_workloads_; }
+  /// Configurations of results.csv in the study's order.
+  const std::vector<std::string>& configurations() const { return configurations_; }
+  /// The configuration whose rate orders workloads.
+  std::string order_configuration() const;
+
+  /// Fills the look-ups from the tables.
+  void index();
+
+ private:
+  using Pair = std::pair<std::string, std::string>;
+  void index_means();
+  void order_workloads();
+  std::map<Pair, size_t> result_rows_, mean_rows_;
+  std::vector<std::string> categories_, configurations_;
+  std::vector<size_t> ordered_workloads_;
+};
+
+/// Reads the files of a study folder. results.csv, means.csv, workloads.csv and study.json must exist.
+Result<StudyData> read_study_data(const std::string& study_folder);
+
+}  // namespace tilepress

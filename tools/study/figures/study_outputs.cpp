@@ -1,0 +1,56 @@
+// Study outputs: from the study's data to its files.
+#include <filesystem>
+
+#include "streams/output_file.h"
+#include "study/figures/figure.h"
+#include "study/figures/study_outputs.h"
+
+namespace tilepress {
+namespace {
+
+/// Writes files below one folder and keeps the first error.
+class OutputFolder {
+ public:
+  explicit OutputFolder(std::string path) : path_(std::move(path)) {}
+  void write(const std::string& name, const std::string& text) {
+    if (!state_) return;
+    const std::string path = path_ + "/" + name;
+    std::error_code code;
+    std::filesystem::create_directories(std::filesystem::path(path).parent_path(), code);
+    state_ = write_whole_file(path, text, true);
+  }
+  const Result<void>& state() const { return state_; }
+
+ private:
+  std::string path_;
+  Result<void> state_;
+};
+
+std::vector<Figure> make_figures(const StudyData& data, std::vector<std::string>& lines) {
+  std::vector<Figure> figures;
+  for (const FigureSpec& spec : figure_specs(data)) {
+    auto figure = make_figure(data, spec);
+    if (figure)
+      figures.push_back(std::move(*figure));
+    else
+      lines.push_back(figure.error().text);
+  }
+  return figures;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> write_study_data(const std::string& study_folder) {
+  const auto data = read_study_data(study_folder);
+  if (!data) return data.error();
+  std::vector<std::string> lines;
+  const std::vector<Figure> figures = make_figures(*data, lines);
+  OutputFolder folder(study_folder);
+  for (const Figure& figure : figures)
+    folder.write("figures/" + figure.spec.name + ".csv", figure.table.csv());
+  folder.write("figures/figures.json", figures_json(*data, figures));
+  if (!folder.state()) return folder.state().error();
+  return lines;
+}
+
+}  // namespace tilepress

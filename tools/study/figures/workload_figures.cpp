@@ -1,0 +1,123 @@
+// Workload figures: rates and block shares of each workload, and the means of categories.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "study/figures/figure_makers.h"
+
+namespace tilepress {
+namespace {
+
+/// The configurations of the figure that the study has results of. An empty list in the figure means all
+/// schemes without keys.
+std::vector<std::string> drawn_configurations(const StudyData& data, const FigureSpec& spec) {
+  const std::vector<std::string>& known = data.configurations();
+  std::vector<std::string> out;
+  if (spec.configurations.empty()) {
+    for (const std::string& configuration : known)
+      if (configuration.find(':') == std::string::npos) out.push_back(configuration);
+    return out;
+  }
+  for (const std::string& configuration : spec.configurations)
+    if (std::find(known.begin(), known.end(), configuration) != known.end()) out.push_back(configuration);
+  return out;
+}
+
+/// Calls visit(workload, category) for each workload of the figure, in the paper's order.
+template <class Visit>
+void each_workload(const StudyData& data, const FigureSpec& spec, Visit visit) {
+  for (const size_t row : data.ordered_workloads()) {
+    const std::string& workload = data.workloads.text(row, "workload");
+    const std::string& category = data.workloads.text(row, "category");
+    if (shows_workload(spec, workload) && shows_category(spec, category)) visit(workload, category);
+  }
+}
+
+/// Blocks of a hybrid. `vdcp` and `ras` count every block once; `raw` counts the blocks among them that stay
+/// raw, NaN in results of older versions.
+struct HybridBlocks {
+  double vdcp, ras, raw;
+  double all() const { return vdcp + ras; }
+  /// Raw blocks among those of VDCP. A block raw either way counts as VDCP's, unless the coverage threshold
+  /// switched VDCP off.
+  double raw_vdcp() const { return std::isnan(raw) ? 0 : std::min(raw, vdcp); }
+  double raw_ras() const { return std::isnan(raw) ? 0 : raw - raw_vdcp(); }
+};
+
+}  // namespace
+
+Result<Figure> rates_of_workloads(const StudyData& data, const FigureSpec& spec) {
+  Figure figure{.spec = spec};
+  figure.table.header = {"workload", "category", "order", "configuration", spec.value};
+  size_t order = 0;
+  each_workload(data, spec, [&](const std::string& workload, const std::string& category) {
+    ++order;
+    for (const std::string& configuration : drawn_configurations(data, spec)) {
+      const double rate = data.result(workload, configuration, spec.value);
+      if (std::isfinite(rate))
+        figure.table.rows.push_back(
+            {workload, category, std::to_string(order), configuration, number_cell_text(rate)});
+    }
+  });
+  figure.x_column = "order";
+  figure.y_column = spec.value;
+  figure.x_label = "workload";
+  figure.y_label = rate_label(spec);
+  figure.x_order = drawn_configurations(data, spec);
+  return figure;
+}
+
+Result<Figure> means_of_categories(const StudyData& data, const FigureSpec& spec) {
+  Figure figure{.spec = spec};
+  figure.table.header = {"category", "configuration", "workloads", spec.value,
+                         "minimum",  "median",        "maximum",   "published"};
+  for (const std::string& category : drawn_categories(data, spec))
+    for (const std::string& configuration : drawn_configurations(data, spec)) {
+      const double mean = data.mean(category, configuration, spec.value + "_hmean");
+      if (!std::isfinite(mean)) continue;
+      const ValueSpread spread = spread_of(workload_values(data, category, [&](const std::string& workload) {
+        return data.result(workload, configuration, spec.value);
+      }));
+      double published = NAN;
+      for (const PublishedPoint& point : spec.published)
+        if (point.x == configuration && point.category == category) published = point.value;
+      figure.table.rows.push_back({category, configuration, std::to_string(spread.count),
+                                   number_cell_text(mean), number_cell_text(spread.minimum),
+                                   number_cell_text(spread.median), number_cell_text(spread.maximum),
+                                   number_cell_text(published)});
+    }
+  figure.x_column = "category";
+  figure.y_column = spec.value;
+  figure.y_label = rate_label(spec) + ", harmonic mean";
+  figure.x_scale = "categories";
+  figure.x_order = drawn_configurations(data, spec);
+  return figure;
+}
+
+Result<Figure> hybrid_shares(const StudyData& data, const FigureSpec& spec) {
+  const std::string configuration = spec.configurations.empty() ? "hdcp" : spec.configurations.front();
+  Figure figure{.spec = spec};
+  figure.table.header = {"workload",  "category",  "order",     "blocks",  "vdcp_share",
+                         "ras_share", "raw_share", "vdcp_only", "ras_only"};
+  size_t order = 0;
+  each_workload(data, spec, [&](const std::string& workload, const std::string& category) {
+    const auto count = [&](const char* column) { return data.result(workload, configuration, column); };
+    const HybridBlocks blocks{count("vdcp_blocks"), count("ras_blocks"), count("raw_blocks")};
+    if (!(blocks.all() > 0)) return;
+    std::vector<std::string> row = {workload, category, std::to_string(++order),
+                                    number_cell_text(blocks.all())};
+    for (const double part : {blocks.vdcp, blocks.ras, blocks.raw, blocks.vdcp - blocks.raw_vdcp(),
+                              blocks.ras - blocks.raw_ras()})
+      row.push_back(number_cell_text(part / blocks.all()));
+    figure.table.rows.push_back(std::move(row));
+  });
+  figure.x_column = "order";
+  figure.y_column = "vdcp_share";
+  figure.x_label = "workload";
+  figure.y_label = "share of blocks";
+  figure.share = true;
+  return figure;
+}
+
+}  // namespace tilepress
