@@ -1,10 +1,51 @@
-// Draw figures: hands the figures' files to the drawing script.
+// Draw figures: stores the script and looks for a Python that has matplotlib.
+#include "study/figures/draw_figures.h"
+
+#include <utility>
+
+#include "capture/child_process.h"
+#include "streams/output_file.h"
 #include "study/figures/study_outputs.h"
 
 namespace tilepress {
+namespace {
+
+/// The exit status of the script when matplotlib is missing.
+constexpr int kNoMatplotlib = 3;
+
+/// Debian's package serves Debian's python3, which another python3 on PATH may hide.
+constexpr const char* kPythons[] = {"python3", "/usr/bin/python3"};
+
+}  // namespace
+
+Result<std::vector<std::string>> draw_figures(const std::string& study_folder) {
+  const std::pair<const char*, std::string_view> scripts[] = {{"draw_figures.py", kDrawFiguresScript},
+                                                              {"figure_drawings.py", kFigureDrawingsScript}};
+  for (const auto& [name, text] : scripts)
+    if (const auto written = write_whole_file(study_folder + "/figures/" + name, text, true); !written)
+      return written.error();
+  bool has_python = false;
+  for (const char* python : kPythons) {
+    const auto end = run_child({python, study_folder + "/figures/draw_figures.py", study_folder},
+                               {{"PYTHONDONTWRITEBYTECODE", "1"}});
+    if (!end) continue;
+    has_python = true;
+    if (end->status() == 0) return std::vector<std::string>{};
+    if (end->status() != kNoMatplotlib)
+      return std::vector<std::string>{study_folder + "/figures: not every figure was drawn"};
+  }
+  return std::vector<std::string>{
+      study_folder + "/figures: SVG and PDF were not drawn: " + (has_python ? "matplotlib" : "python3") +
+      " is missing (apt-get install python3-matplotlib)"};
+}
 
 Result<std::vector<std::string>> write_study_outputs(const std::string& study_folder) {
-  return write_study_data(study_folder);
+  auto lines = write_study_data(study_folder);
+  if (!lines) return lines;
+  const auto drawn = draw_figures(study_folder);
+  if (!drawn) return drawn;
+  lines->insert(lines->end(), drawn->begin(), drawn->end());
+  return lines;
 }
 
 }  // namespace tilepress

@@ -41,9 +41,8 @@ std::vector<std::string> drawn_categories(const StudyData& data, const FigureSpe
 }
 
 std::string rate_label(const FigureSpec& spec) {
-  std::string label = spec.value == "rate_payload" ? "rate without bursts" : "compression rate";
-  if (!spec.normalized_to.empty()) label += " relative to " + spec.normalized_to;
-  return label;
+  if (!spec.normalized_to.empty()) return "rate relative to " + spec.normalized_to;
+  return spec.value == "rate_payload" ? "rate without bursts" : "compression rate";
 }
 
 ValueSpread spread_of(std::vector<double> values) {

@@ -36,7 +36,7 @@ struct FigureSpec {
   std::string value = "rate";                 ///< a column of results.csv and means.csv, without "_hmean"
   std::string normalized_to{};                ///< configuration whose value counts as 1; empty: none
   std::vector<std::string> workloads{};       ///< patterns of the workloads to draw; empty: all
-  std::vector<std::string> categories{};  ///< categories to draw; empty: all
+  std::vector<std::string> categories{};      ///< categories to draw; empty: all
   bool by_workload = false;                   ///< a line per workload instead of one per category
   std::vector<PublishedPoint> published{};
 };
