@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <string>
 
+#include "frames/little_endian.h"
+
 namespace tilepress {
 
 constexpr uint32_t kPackedFileVersion = 1;
@@ -16,10 +18,6 @@ constexpr uint32_t kFileHeaderBytes = 20;      ///< magic, version, count, CRC
 constexpr uint32_t kSurfaceHeaderBytes = 56;   ///< without specification and CRC
 constexpr uint32_t kSurfaceMark = 0x46525553;  ///< "SURF"
 constexpr uint32_t kCrcBytes = 4;
-
-inline void put_field(std::string& out, uint64_t value, uint32_t bytes) {
-  for (uint32_t i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xFF);
-}
 
 inline uint32_t crc_of(const std::string& bytes, uint32_t crc = 0) {
   return static_cast<uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));

@@ -30,21 +30,6 @@ bool same_crc(uint64_t stored, uint32_t computed) {
 #endif
 }
 
-/// Takes little-endian fields from a buffer that is long enough.
-class Fields {
- public:
-  explicit Fields(const std::string& bytes) : at_(reinterpret_cast<const uint8_t*>(bytes.data())) {}
-  uint64_t take(uint32_t bytes) {
-    uint64_t value = 0;
-    for (uint32_t i = 0; i < bytes; ++i) value |= uint64_t{*at_++} << (8 * i);
-    return value;
-  }
-  uint32_t take4() { return static_cast<uint32_t>(take(4)); }
-
- private:
-  const uint8_t* at_;
-};
-
 bool read_bytes(std::istream& in, uint64_t offset, uint64_t size, std::string& out) {
   out.resize(size);
   in.clear();
