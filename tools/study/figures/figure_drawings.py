@@ -239,7 +239,7 @@ def draw_workload_rates(drawing):
 
 def draw_hybrid(drawing):
     figure, axes = drawing.start(width_for(drawing), 2.3)
-    parts = [("vdcp_only", "coded by VDCP", SCHEME_STYLES["vdcp"]), ("raw_share", "raw either way", ("#d9d9d9", "", "", "..")),
+    parts = [("vdcp_only", "coded by VDCP", SCHEME_STYLES["vdcp"]), ("raw_share", "raw either way", ("white", "", "", "..")),
              ("ras_only", "coded by RAS", SCHEME_STYLES["ras"])]
     if not any(row["raw_share"] for row in drawing.rows):
         parts = [("vdcp_share", "VDCP", SCHEME_STYLES["vdcp"]), ("ras_share", "RAS", SCHEME_STYLES["ras"])]
@@ -278,6 +278,7 @@ def draw_cdf(drawing):
         axes.scatter(number(point["x"]), point["value"], **PUBLISHED)
         axes.annotate(f"paper, {point['category']}", (number(point["x"]), point["value"]), (5, -1), textcoords="offset points", va="top", fontsize=6)
     axes.set_xscale("log")
+    axes.xaxis.set_major_formatter(drawing.plt.matplotlib.ticker.FormatStrFormatter("%d"))
     axes.set_ylim(0, 1.02)
     axes.yaxis.set_major_formatter(drawing.plt.matplotlib.ticker.PercentFormatter(1.0))
     drawing.legend(axes, 2)

@@ -2,8 +2,10 @@
 #include <filesystem>
 
 #include "streams/output_file.h"
+#include "study/figures/claims.h"
 #include "study/figures/figure.h"
 #include "study/figures/study_outputs.h"
+#include "study/figures/study_tables.h"
 
 namespace tilepress {
 namespace {
@@ -25,6 +27,12 @@ class OutputFolder {
   std::string path_;
   Result<void> state_;
 };
+
+void write_table(OutputFolder& folder, const DocumentTable& table, const std::string& stem) {
+  folder.write(stem + ".md", table.markdown());
+  folder.write(stem + ".tex", table.latex());
+  folder.write(stem + ".html", table.html());
+}
 
 std::vector<Figure> make_figures(const StudyData& data, std::vector<std::string>& lines) {
   std::vector<Figure> figures;
@@ -49,6 +57,11 @@ Result<std::vector<std::string>> write_study_data(const std::string& study_folde
   for (const Figure& figure : figures)
     folder.write("figures/" + figure.spec.name + ".csv", figure.table.csv());
   folder.write("figures/figures.json", figures_json(*data, figures));
+  const std::vector<DocumentTable> tables = study_tables(*data);
+  for (const DocumentTable& table : tables) write_table(folder, table, "tables/" + table.name);
+  const DocumentTable claims = claims_table(make_claims(*data));
+  folder.write("claims.csv", claims.csv());
+  write_table(folder, claims, "claims");
   if (!folder.state()) return folder.state().error();
   return lines;
 }

@@ -1,0 +1,171 @@
+// Claims: evaluates the rules on a study.
+#include "study/figures/claims.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "study/figures/figure_makers.h"
+#include "tilepress/cost_model.h"
+
+namespace tilepress {
+namespace {
+
+constexpr double kCoverageThreshold = 0.7;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double mean_of(const std::vector<double>& values) {
+  return values.empty() ? kNone : std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+}
+
+/// Rows of workloads.csv with results, of a category.
+std::vector<size_t> workloads_of(const StudyData& data, const std::string& category) {
+  std::vector<size_t> rows;
+  for (const size_t row : data.ordered_workloads())
+    if (category == kAllCategories || data.workloads.text(row, "category") == category) rows.push_back(row);
+  return rows;
+}
+
+/// The workload with the median entropy of its category: neither its plainest nor its richest.
+std::optional<size_t> stand_in(const StudyData& data, const std::string& category) {
+  std::vector<size_t> rows = workloads_of(data, category);
+  std::erase_if(rows, [&](size_t row) { return std::isnan(data.workloads.number(row, "entropy")); });
+  if (rows.empty()) return std::nullopt;
+  const auto entropy = [&](size_t row) { return data.workloads.number(row, "entropy"); };
+  std::stable_sort(rows.begin(), rows.end(), [&](size_t a, size_t b) { return entropy(a) < entropy(b); });
+  return rows[(rows.size() - 1) / 2];
+}
+
+/// Values of the rule's column of results.csv, one per workload of the category.
+std::vector<double> result_values(const StudyData& data, const ClaimRule& rule, double least_coverage) {
+  std::vector<double> values;
+  for (const size_t row : workloads_of(data, rule.category)) {
+    const std::string& workload = data.workloads.text(row, "workload");
+    const double value = data.result(workload, rule.configuration, rule.column);
+    if (std::isfinite(value) && !(data.workloads.number(row, "fvc_coverage") < least_coverage))
+      values.push_back(value);
+  }
+  return values;
+}
+
+std::vector<double> hybrid_values(const StudyData& data, const ClaimRule& rule) {
+  return workload_values(data, rule.category, [&](const std::string& workload) {
+    const double vdcp = data.result(workload, rule.configuration, "vdcp_blocks");
+    return vdcp / (vdcp + data.result(workload, rule.configuration, "ras_blocks"));
+  });
+}
+
+Claim claim_on_means(const StudyData& data, const ClaimRule& rule) {
+  const double mean = data.mean(rule.category, rule.configuration, rule.column);
+  const double base = data.mean(rule.category, rule.base, rule.column);
+  const double workloads = data.mean(rule.category, rule.configuration, "workloads");
+  Claim claim{rule, mean, std::isnan(workloads) ? 0 : static_cast<size_t>(workloads)};
+  if (rule.source == ClaimSource::kRelative) claim.ours = mean / base;
+  if (rule.source == ClaimSource::kGain) claim.ours = mean / base - 1;
+  if (rule.source == ClaimSource::kSaving) claim.ours = energy_saving(mean);
+  return claim;
+}
+
+Claim claim_on_workloads(const StudyData& data, const ClaimRule& rule) {
+  const auto workload_column = [&](const std::string& category) {
+    std::vector<double> values;
+    for (const size_t row : workloads_of(data, category)) {
+      const double value = data.workloads.number(row, rule.column);
+      if (std::isfinite(value)) values.push_back(value);
+    }
+    return values;
+  };
+  const bool lowest = rule.source == ClaimSource::kLowestCovered;
+  std::vector<double> values;
+  if (rule.source == ClaimSource::kWorkloadMean)
+    values = workload_column(rule.category);
+  else if (rule.source == ClaimSource::kHybridShare)
+    values = hybrid_values(data, rule);
+  else
+    values = result_values(data, rule, lowest ? kCoverageThreshold : 0);
+  Claim claim{rule, mean_of(values), values.size()};
+  if (!values.empty() && lowest) claim.ours = *std::min_element(values.begin(), values.end());
+  if (!values.empty() && rule.source == ClaimSource::kLargest)
+    claim.ours = *std::max_element(values.begin(), values.end());
+  return claim;
+}
+
+Claim claim_on_stand_in(const StudyData& data, const ClaimRule& rule) {
+  const auto row = stand_in(data, rule.category);
+  if (!row) return {rule, kNone, 0};
+  return {rule, data.workloads.number(*row, rule.column), 1, data.workloads.text(*row, "workload")};
+}
+
+Claim make_claim(const StudyData& data, const ClaimRule& rule) {
+  switch (rule.source) {
+    case ClaimSource::kCostModel:
+      return {rule, rule.cost(), 0};
+    case ClaimSource::kStandIn:
+      return claim_on_stand_in(data, rule);
+    case ClaimSource::kWorkloadMean:
+    case ClaimSource::kLargest:
+    case ClaimSource::kLowestCovered:
+    case ClaimSource::kHybridShare:
+      return claim_on_workloads(data, rule);
+    default:
+      return claim_on_means(data, rule);
+  }
+}
+
+struct UnitText {
+  const char* name;    ///< in claims.csv
+  const char* suffix;  ///< after a value
+};
+constexpr UnitText kUnits[] = {{"rate", ""},    {"share", " %"}, {"bits per pixel", " bit"}, {"bytes", " B"},
+                               {"mm2", " mm²"}, {"mW", " mW"},   {"pJ per byte", " pJ"}};
+
+}  // namespace
+
+std::vector<Claim> make_claims(const StudyData& data) {
+  std::vector<Claim> out;
+  for (const ClaimRule& rule : claim_rules()) out.push_back(make_claim(data, rule));
+  return out;
+}
+
+std::string claim_value(double value, ClaimUnit unit) {
+  if (std::isnan(value)) return "–";
+  const char* suffix = kUnits[static_cast<size_t>(unit)].suffix;
+  if (unit == ClaimUnit::kShare) return fmt::format("{:.1f}{}", value * 100, suffix);
+  if (unit == ClaimUnit::kSquareMillimetres) return fmt::format("{:.6f}{}", value, suffix);
+  if (unit == ClaimUnit::kBytes) return fmt::format("{:.0f}{}", value, suffix);
+  return fmt::format("{:.2f}{}", value, suffix);
+}
+
+DocumentTable claims_table(const std::vector<Claim>& claims) {
+  DocumentTable table{.name = "claims", .caption = "What the paper states, and what this study measures"};
+  table.header = {"claim",     "section",   "category",      "unit", "paper", "this study",
+                  "deviation", "workloads", "stands for it", "note", "id"};
+  table.text_columns = 4;
+  for (const Claim& claim : claims) {
+    const double deviation = claim.deviation();
+    const auto value = [&](double number) {
+      return DocumentCell{claim_value(number, claim.rule.unit), number_cell_text(number)};
+    };
+    table.rows.push_back({document_text(claim.rule.text),
+                          document_text(claim.rule.section),
+                          document_text(claim.rule.category),
+                          document_text(kUnits[static_cast<size_t>(claim.rule.unit)].name),
+                          value(claim.rule.published),
+                          value(claim.ours),
+                          {std::isnan(deviation) ? "–" : fmt::format("{:+.1f} %", deviation * 100),
+                           number_cell_text(deviation)},
+                          document_count(claim.workloads),
+                          document_text(claim.stands_for),
+                          document_text(claim.rule.note),
+                          document_text(claim.rule.id)});
+  }
+  table.note =
+      "deviation = this study / paper − 1. The paper has 92 UI, 20 2D and 12 3D applications for Android. A "
+      "claim about one "
+      "application stands beside the workload of its category with the median entropy.";
+  return table;
+}
+
+}  // namespace tilepress
