@@ -69,15 +69,22 @@ std::string line_plot_json(const LinePlot& plot) {
       {"id", &plot.id},         {"title", &plot.title},   {"note", &plot.note}, {"x_name", &plot.x_name},
       {"x_unit", &plot.x_unit}, {"y_unit", &plot.y_unit}, {"file", &plot.file}};
   for (const auto& [name, text] : texts) out += fmt::format("\"{}\":\"{}\",", name, escape_json(*text));
-  out += fmt::format("\"x_log\":{},\"y_max\":{:.6g},\"x\":", plot.x_log, plot.y_max);
+  out += fmt::format("\"x_log\":{},\"y_min\":{:.6g},\"y_max\":{:.6g},\"x\":", plot.x_log, plot.y_min,
+                     plot.y_max);
   append_values(plot.x, out);
+  if (!plot.x_labels.empty()) {
+    out += ",\"x_labels\":[";
+    for (size_t i = 0; i < plot.x_labels.size(); ++i)
+      out += fmt::format("{}\"{}\"", i > 0 ? "," : "", escape_json(plot.x_labels[i]));
+    out += ']';
+  }
   out += ",\"series\":[";
   for (size_t i = 0; i < plot.lines.size(); ++i) {
     const PlotLine& line = plot.lines[i];
     out += fmt::format("{}{{\"name\":\"{}\",\"color\":{},\"y\":", i > 0 ? "," : "", escape_json(line.name),
                        line.color_index);
     append_values(line.y, out);
-    out += '}';
+    out += line.points_only ? ",\"points_only\":true}" : "}";
   }
   return out + "]}";
 }

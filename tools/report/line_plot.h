@@ -10,7 +10,8 @@ namespace tilepress {
 struct PlotLine {
   std::string name;
   size_t color_index = 0;
-  std::vector<double> y;  ///< one per x; NaN = no value there
+  std::vector<double> y;     ///< one per x; NaN = no value there
+  bool points_only = false;  ///< rings without a line
 };
 
 struct LinePlot {
@@ -19,8 +20,10 @@ struct LinePlot {
   std::string x_unit{}, y_unit{};  ///< texts of the axes
   std::string file{};              ///< name of the CSV download
   bool x_log = false;
-  double y_max = 0;         ///< top of the y axis; 0 = from the values
-  std::vector<double> x{};  ///< ascending
+  double y_min = 0;                     ///< bottom of the y axis
+  double y_max = 0;                     ///< top of the y axis; 0 = from the values
+  std::vector<double> x{};              ///< ascending
+  std::vector<std::string> x_labels{};  ///< texts of x = 0, 1, 2, …; empty: the numbers themselves
   std::vector<PlotLine> lines{};
 };
 

@@ -25,9 +25,11 @@
   };
   const tableRows = table => [...table.rows].map(row => [...row.cells].map(
       cell => cell.dataset.v ?? cell.textContent.trim()));
+  // A plot with labels has the positions 0, 1, 2, ... on its x axis.
+  const xText = (plot, x) => plot.x_labels ? plot.x_labels[x] ?? '' : x;
   const plotRows = plot => {
     const rows = [[plot.x_name, ...plot.series.map(line => line.name)]];
-    plot.x.forEach((x, i) => rows.push([x, ...plot.series.map(line => line.y[i])]));
+    plot.x.forEach((x, i) => rows.push([xText(plot, x), ...plot.series.map(line => line.y[i])]));
     return rows;
   };
   const shown = value => value == null ? '–' : Number(value.toPrecision(5)).toString();
@@ -40,14 +42,16 @@
     const options = {
       width: target.clientWidth, height: narrow ? 250 : 300,
       scales: {x: {time: false, distr: plot.x_log ? 3 : 1},
-               y: {range: (u, low, high) => plot.y_max ? [0, plot.y_max] : [0, high > 0 ? high * 1.05 : 1]}},
+               y: {range: (u, low, high) => [plot.y_min, plot.y_max || (high > 0 ? plot.y_min + (high - plot.y_min) * 1.05 : 1)]}},
       axes: [{...axis, label: plot.x_unit, ...(plot.x_log ? {} : {incrs: wholeSteps}), labelSize: 20, size: 30, space: narrow ? 55 : 70,
-              values: (u, ticks) => ticks.map(tick => tick == null || tick % 1 ? '' : String(tick))},
+              ...(plot.x_labels ? {splits: () => plot.x} : {}),
+              values: (u, ticks) => ticks.map(tick => tick == null || tick % 1 ? '' : String(xText(plot, tick)))},
              {...axis, label: plot.y_unit, labelSize: 20, size: 48}],
-      series: [{label: plot.x_name, value: (u, value) => shown(value)},
+      series: [{label: plot.x_name, value: (u, value) => value == null ? '–' : plot.x_labels ? xText(plot, value) : shown(value)},
                ...plot.series.map((line, i) => ({
-                 label: line.name, stroke: style('--s' + line.color % 10), width: 1.5, dash: dashes[i % dashes.length],
-                 points: {show: plot.x.length < 60, size: 5}, spanGaps: true, value: (u, value) => shown(value)}))],
+                 label: line.name, stroke: style('--s' + line.color % 10), width: 1.5, spanGaps: true, value: (u, value) => shown(value),
+                 ...(line.points_only ? {paths: () => null, points: {show: true, size: 10, width: 2, fill: style('--paper')}}
+                                      : {dash: dashes[i % dashes.length], points: {show: plot.x.length < 60, size: 5}})}))],
       legend: {live: true}, cursor: {drag: {x: true, y: false}},
       hooks: {draw: [() => { target.dataset.drawn = plot.x.length; }]},
     };
@@ -122,12 +126,13 @@
     entry.watch.observe(lines);
     live.add(entry);
   }
-  function stopAll() {
+  function stopIn(place) {
     for (const entry of live) {
+      if (!place.contains(entry.box)) continue;
       entry.watch.disconnect();
       entry.chart.destroy();
+      live.delete(entry);
     }
-    live.clear();
   }
   function redraw() {
     for (const entry of live) {
@@ -139,25 +144,32 @@
   const sections = [...document.querySelectorAll('section.run')];
   const runPick = document.getElementById('run-pick');
   function showSurface(place, surface) {
-    stopAll();
+    stopIn(place);
     place.replaceChildren(...surface.plots.map(plotBox));
     [...place.children].forEach(start);
+  }
+  // Charts of the first surface, and a picker if there are more.
+  function showSurfaces(place, surfaces, picked) {
+    const charts = element('div');
+    stopIn(place);
+    place.replaceChildren();
+    if (surfaces.length > 1) {
+      const pick = element('select', {}, ...surfaces.map((surface, i) => element('option', {value: i}, surface.label)));
+      pick.addEventListener('change', () => showSurface(charts, surfaces[pick.value]));
+      place.append(element('label', {class: 'pick'}, picked + ' ', pick));
+    }
+    place.append(charts);
+    showSurface(charts, surfaces[0]);
   }
   function showRun(index) {
     sections.forEach((section, i) => { section.hidden = i !== index; });
     const place = sections[index]?.querySelector('.line-charts');
     const surfaces = series[index]?.surfaces ?? [];
-    if (!place || surfaces.length === 0) return;
-    const charts = element('div');
-    place.replaceChildren();
-    if (surfaces.length > 1) {
-      const pick = element('select', {}, ...surfaces.map((surface, i) => element('option', {value: i}, surface.label)));
-      pick.addEventListener('change', () => showSurface(charts, surfaces[pick.value]));
-      place.append(element('label', {class: 'pick'}, 'Surface ', pick));
-    }
-    place.append(charts);
-    showSurface(charts, surfaces[0]);
+    for (const section of sections) stopIn(section);
+    if (place && surfaces.length > 0) showSurfaces(place, surfaces, 'Surface');
   }
+  document.querySelectorAll('[data-series]').forEach(place =>
+      showSurfaces(place, series[place.dataset.series].surfaces, place.dataset.picked));
   if (sections.length > 0) {
     if (runPick) runPick.addEventListener('change', () => showRun(Number(runPick.value)));
     document.querySelectorAll('a[data-run]').forEach(link => link.addEventListener('click', () => {

@@ -138,34 +138,58 @@ std::string claim_value(double value, ClaimUnit unit) {
   return fmt::format("{:.2f}{}", value, suffix);
 }
 
+namespace {
+
+std::string deviation_text(double deviation) {
+  constexpr double kRoundsToZero = 0.0005;
+  if (!std::isfinite(deviation)) return "–";
+  return fmt::format("{:+.1f} %", std::abs(deviation) < kRoundsToZero ? 0 : deviation * 100);
+}
+
+std::string remark_of(const Claim& claim) {
+  std::string out = claim.stands_for.empty() ? "" : "Here: " + claim.stands_for + ".";
+  if (claim.rule.note[0] != '\0') out += (out.empty() ? "" : " ") + std::string(claim.rule.note);
+  return out;
+}
+
+}  // namespace
+
 DocumentTable claims_table(const std::vector<Claim>& claims) {
   DocumentTable table{.name = "claims", .caption = "What the paper states, and what this study measures"};
-  table.header = {"claim",     "section",   "category",      "unit", "paper", "this study",
-                  "deviation", "workloads", "stands for it", "note", "id"};
-  table.text_columns = 4;
+  table.header = {"claim", "category", "paper", "this study", "deviation", "remark"};
+  table.text_columns = 2;
+  table.wrapped = {0, 5};
   for (const Claim& claim : claims) {
-    const double deviation = claim.deviation();
     const auto value = [&](double number) {
       return DocumentCell{claim_value(number, claim.rule.unit), number_cell_text(number)};
     };
     table.rows.push_back({document_text(claim.rule.text),
-                          document_text(claim.rule.section),
                           document_text(claim.rule.category),
-                          document_text(kUnits[static_cast<size_t>(claim.rule.unit)].name),
                           value(claim.rule.published),
                           value(claim.ours),
-                          {std::isnan(deviation) ? "–" : fmt::format("{:+.1f} %", deviation * 100),
-                           number_cell_text(deviation)},
-                          document_count(claim.workloads),
-                          document_text(claim.stands_for),
-                          document_text(claim.rule.note),
-                          document_text(claim.rule.id)});
+                          {deviation_text(claim.deviation()), number_cell_text(claim.deviation())},
+                          document_text(remark_of(claim))});
   }
   table.note =
       "deviation = this study / paper − 1. The paper has 92 UI, 20 2D and 12 3D applications for Android. A "
-      "claim about one "
-      "application stands beside the workload of its category with the median entropy.";
+      "claim about one application stands beside the workload of its category with the median entropy.";
   return table;
+}
+
+std::string claims_csv(const std::vector<Claim>& claims) {
+  DocumentTable table;
+  table.header = {"id",        "section", "claim",     "category",  "configuration", "unit",
+                  "published", "ours",    "deviation", "workloads", "stands_for",    "note"};
+  for (const Claim& claim : claims) {
+    const ClaimRule& rule = claim.rule;
+    table.rows.push_back({document_text(rule.id), document_text(rule.section), document_text(rule.text),
+                          document_text(rule.category), document_text(rule.configuration),
+                          document_text(kUnits[static_cast<size_t>(rule.unit)].name),
+                          document_exact(rule.published), document_exact(claim.ours),
+                          document_exact(claim.deviation()), document_count(claim.workloads),
+                          document_text(claim.stands_for), document_text(rule.note)});
+  }
+  return table.csv();
 }
 
 }  // namespace tilepress

@@ -67,6 +67,9 @@ std::vector<Claim> make_claims(const StudyData& data);
 
 /// The value as people read it, with its unit.
 std::string claim_value(double value, ClaimUnit unit);
+/// For people: values with units.
 DocumentTable claims_table(const std::vector<Claim>& claims);
+/// Every field of every claim, shares as 0..1.
+std::string claims_csv(const std::vector<Claim>& claims);
 
 }  // namespace tilepress

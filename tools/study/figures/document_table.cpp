@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -93,13 +94,20 @@ std::string DocumentTable::markdown() const {
 }
 
 std::string DocumentTable::latex() const {
-  std::string columns(text_columns, 'l');
-  columns.append(header.size() - text_columns, 'r');
+  constexpr size_t kWideColumns = 8;
+  // A table with many columns or with lines of text takes the width of the page.
+  const bool wide = header.size() > kWideColumns || !wrapped.empty();
+  const std::string environment = wide ? "table*" : "table";
+  std::string columns;
+  for (size_t i = 0; i < header.size(); ++i) {
+    const bool wraps = std::find(wrapped.begin(), wrapped.end(), i) != wrapped.end();
+    columns += wraps ? "p{.3\\textwidth}" : i < text_columns ? "l" : "r";
+  }
   std::string out = fmt::format(
-      "\\begin{{table}}\n  \\centering\n  \\caption{{{}}}\n  \\label{{tab:{}}}\n  \\begin{{tabular}}{{{}}}\n "
-      "   "
+      "\\begin{{{}}}\n  \\centering\\small\n  \\caption{{{}}}\n  \\label{{tab:{}}}\n  "
+      "\\begin{{tabular}}{{{}}}\n    "
       "\\toprule\n",
-      escape_latex(caption), name, columns);
+      environment, escape_latex(caption), name, columns);
   const auto line = [&](size_t count, const auto& text_of) {
     out += "    ";
     for (size_t i = 0; i < count; ++i) out += (i > 0 ? " & " : "") + escape_latex(text_of(i));
@@ -110,7 +118,7 @@ std::string DocumentTable::latex() const {
   for (const auto& row : rows) line(row.size(), [&](size_t i) { return row[i].shown; });
   out += "    \\bottomrule\n  \\end{tabular}\n";
   if (!note.empty()) out += "  \\par\\smallskip\\footnotesize " + escape_latex(note) + "\n";
-  return out + "\\end{table}\n";
+  return out + "\\end{" + environment + "}\n";
 }
 
 std::string DocumentTable::html() const {

@@ -24,10 +24,11 @@ DocumentCell document_exact(double value);
 DocumentCell document_share(double share);
 
 struct DocumentTable {
-  std::string name;     ///< of the files
-  std::string caption;  ///< a sentence
+  std::string name{};     ///< of the files
+  std::string caption{};  ///< a sentence
   std::vector<std::string> header{};
-  size_t text_columns = 1;  ///< leading columns that are set flush left
+  size_t text_columns = 1;        ///< leading columns that are set flush left
+  std::vector<size_t> wrapped{};  ///< columns of text that may take several lines
   std::vector<std::vector<DocumentCell>> rows{};
   std::string note{};  ///< below the table; may be empty
 

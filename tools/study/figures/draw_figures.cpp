@@ -40,12 +40,7 @@ Result<std::vector<std::string>> draw_figures(const std::string& study_folder) {
 }
 
 Result<std::vector<std::string>> write_study_outputs(const std::string& study_folder) {
-  auto lines = write_study_data(study_folder);
-  if (!lines) return lines;
-  const auto drawn = draw_figures(study_folder);
-  if (!drawn) return drawn;
-  lines->insert(lines->end(), drawn->begin(), drawn->end());
-  return lines;
+  return write_study_data(study_folder, draw_figures);
 }
 
 }  // namespace tilepress

@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "study/figures/study_data.h"
@@ -15,6 +16,13 @@ struct FigureTable {
   std::vector<std::vector<std::string>> rows;
   /// RFC 4180, with the header row.
   std::string csv() const;
+  bool has(std::string_view column) const;
+  /// Precondition: the table has the column.
+  const std::string& text(size_t row, std::string_view column) const;
+  /// NaN for an empty cell or a word.
+  double number(size_t row, std::string_view column) const;
+  /// The texts of a column, each once, in the order they first appear.
+  std::vector<std::string> distinct(std::string_view column) const;
 };
 
 struct Figure {

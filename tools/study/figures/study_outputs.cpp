@@ -5,6 +5,7 @@
 #include "study/figures/claims.h"
 #include "study/figures/figure.h"
 #include "study/figures/study_outputs.h"
+#include "study/figures/study_page.h"
 #include "study/figures/study_tables.h"
 
 namespace tilepress {
@@ -46,9 +47,20 @@ std::vector<Figure> make_figures(const StudyData& data, std::vector<std::string>
   return figures;
 }
 
+/// The figures that have both drawings.
+std::vector<std::string> drawn_figures(const std::string& study_folder, const std::vector<Figure>& figures) {
+  std::vector<std::string> names;
+  for (const Figure& figure : figures) {
+    const std::string stem = study_folder + "/figures/" + figure.spec.name;
+    if (std::filesystem::exists(stem + ".svg") && std::filesystem::exists(stem + ".pdf"))
+      names.push_back(figure.spec.name);
+  }
+  return names;
+}
+
 }  // namespace
 
-Result<std::vector<std::string>> write_study_data(const std::string& study_folder) {
+Result<std::vector<std::string>> write_study_data(const std::string& study_folder, FigureDrawing draw) {
   const auto data = read_study_data(study_folder);
   if (!data) return data.error();
   std::vector<std::string> lines;
@@ -59,9 +71,17 @@ Result<std::vector<std::string>> write_study_data(const std::string& study_folde
   folder.write("figures/figures.json", figures_json(*data, figures));
   const std::vector<DocumentTable> tables = study_tables(*data);
   for (const DocumentTable& table : tables) write_table(folder, table, "tables/" + table.name);
-  const DocumentTable claims = claims_table(make_claims(*data));
-  folder.write("claims.csv", claims.csv());
-  write_table(folder, claims, "claims");
+  const std::vector<Claim> claims = make_claims(*data);
+  folder.write("claims.csv", claims_csv(claims));
+  write_table(folder, claims_table(claims), "claims");
+  if (!folder.state()) return folder.state().error();
+  if (draw != nullptr) {
+    const auto drawn = draw(study_folder);
+    if (!drawn) return drawn.error();
+    lines.insert(lines.end(), drawn->begin(), drawn->end());
+  }
+  folder.write("study.html",
+               study_page(*data, claims, figures, tables, drawn_figures(study_folder, figures)));
   if (!folder.state()) return folder.state().error();
   return lines;
 }

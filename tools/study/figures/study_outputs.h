@@ -8,13 +8,18 @@
 
 namespace tilepress {
 
-/// Writes figures/NAME.csv and figures/figures.json, tables/, claims.* and study.html from the CSV files and
-/// study.json of `study_folder`. The files depend on nothing else: equal studies have equal files. Returns
-/// lines for the user, for example about a figure without data. Fails if a file of the study cannot be read
-/// or an output cannot be written.
-Result<std::vector<std::string>> write_study_data(const std::string& study_folder);
+/// Draws the figures of a study folder. Returns lines for the user.
+using FigureDrawing = Result<std::vector<std::string>> (*)(const std::string& study_folder);
 
-/// Does the same and draws figures/NAME.svg and NAME.pdf with matplotlib. Figures that have not changed are
+/// Writes figures/NAME.csv and figures/figures.json, tables/, claims.* and study.html from the CSV files and
+/// study.json of `study_folder`. The files depend on nothing else: equal studies have equal files. Calls
+/// `draw`, unless it is null, before the page is written: the page links to drawings. Returns lines for the
+/// user, for example about a figure without data. Fails if a file of the study cannot be read or an output
+/// cannot be written.
+Result<std::vector<std::string>> write_study_data(const std::string& study_folder,
+                                                  FigureDrawing draw = nullptr);
+
+/// Does the same with figures/NAME.svg and NAME.pdf, drawn by matplotlib. Figures that have not changed are
 /// not drawn again. Without python3 or matplotlib a line says so, and everything else is written.
 Result<std::vector<std::string>> write_study_outputs(const std::string& study_folder);
 

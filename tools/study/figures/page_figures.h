@@ -1,0 +1,45 @@
+// Page figures: the figures of a study as charts of its page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/chart_markup.h"
+#include "report/line_plot.h"
+#include "study/figures/figure.h"
+
+namespace tilepress {
+
+/// Line charts, and the label of each where a picker chooses among them.
+struct PageLines {
+  std::vector<std::pair<std::string, LinePlot>> plots;
+  std::string picked;  ///< what the picker chooses: "Workload"
+};
+
+/// What a page draws of a figure: markup, or line charts for the page's script.
+struct PageChart {
+  std::string html{};
+  PageLines lines{};
+  std::string remark{};  ///< what the chart leaves out
+};
+
+PageChart page_chart(const StudyData& data, const Figure& figure);
+
+// The kinds. Line charts:
+PageChart axis_lines(const StudyData& data, const Figure& figure);
+PageChart workload_lines(const StudyData& data, const Figure& figure);
+PageChart change_lines(const StudyData& data, const Figure& figure);
+PageChart cdf_lines(const StudyData& data, const Figure& figure);
+// Rows of marks:
+PageChart axis_bars(const StudyData& data, const Figure& figure);
+PageChart mean_bars(const StudyData& data, const Figure& figure);
+PageChart rate_dots(const StudyData& data, const Figure& figure);
+PageChart share_stacks(const StudyData& data, const Figure& figure);
+PageChart coverage_scatter(const StudyData& data, const Figure& figure);
+
+/// The colour of a category on the page.
+size_t category_color(const StudyData& data, const std::string& category);
+/// Colours of the marks "this study" and "paper".
+inline constexpr size_t kOurColor = 0, kPaperColor = 1;
+
+}  // namespace tilepress

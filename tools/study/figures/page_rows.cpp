@@ -1,0 +1,145 @@
+// Page rows: bars, dots and stacks, one row below the other.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/html_text.h"
+#include "study/figures/page_figures.h"
+
+namespace tilepress {
+namespace {
+
+constexpr size_t kFirstPartColor = 0, kRawPartColor = 9, kSecondPartColor = 1;
+
+/// "this study" and "paper", of which the second is only there for published values.
+std::string comparison_key(bool published) {
+  std::vector<KeyEntry> key = {{"this study", kOurColor}};
+  if (published) key.push_back({"paper", kPaperColor});
+  return chart_key(key);
+}
+
+/// A row with a bar of the study, and one of the paper where it prints a value.
+ChartRow comparison_row(const std::string& label, const std::string& group, double ours, double paper) {
+  ChartRow row{
+      label, group, {{ours, kOurColor, fmt::format("{}, {}: {}", group, label, shown_number(ours))}}};
+  if (std::isfinite(paper))
+    row.marks.push_back(
+        {paper, kPaperColor, fmt::format("{}, {}, paper: {}", group, label, shown_number(paper))});
+  return row;
+}
+
+PageChart comparison_chart(const StudyData& data, const Figure& figure, const std::string& label_column) {
+  const FigureTable& table = figure.table;
+  std::vector<ChartRow> rows;
+  ValueRange range;
+  bool published = false;
+  for (size_t row = 0; row < table.rows.size(); ++row) {
+    const double ours = table.number(row, figure.y_column), paper = table.number(row, "published");
+    range.add(ours);
+    if (std::isfinite(paper)) range.add(paper);
+    published = published || std::isfinite(paper);
+    rows.push_back(comparison_row(table.text(row, label_column),
+                                  data.category_title(table.text(row, "category")), ours, paper));
+  }
+  return {.html = comparison_key(published) + row_chart(rows, AxisScale::for_rates(0, range.high),
+                                                        RowShape::kBars, figure.y_label, figure.spec.title)};
+}
+
+/// The workloads of a figure with the rows of each, in the figure's order.
+std::vector<std::pair<std::string, std::vector<size_t>>> rows_of_workloads(const FigureTable& table) {
+  std::vector<std::pair<std::string, std::vector<size_t>>> out;
+  for (size_t row = 0; row < table.rows.size(); ++row) {
+    const std::string& workload = table.text(row, "workload");
+    if (out.empty() || out.back().first != workload) out.emplace_back(workload, std::vector<size_t>{});
+    out.back().second.push_back(row);
+  }
+  return out;
+}
+
+}  // namespace
+
+PageChart axis_bars(const StudyData& data, const Figure& figure) {
+  return comparison_chart(data, figure, figure.x_column);
+}
+
+PageChart mean_bars(const StudyData& data, const Figure& figure) {
+  return comparison_chart(data, figure, "configuration");
+}
+
+PageChart rate_dots(const StudyData& data, const Figure& figure) {
+  const FigureTable& table = figure.table;
+  std::vector<KeyEntry> key;
+  for (const std::string& configuration : figure.x_order) key.push_back({configuration, key.size()});
+  ValueRange range;
+  std::vector<ChartRow> rows;
+  for (const auto& [workload, own] : rows_of_workloads(table)) {
+    ChartRow line{workload, data.category_title(table.text(own.front(), "category")), {}};
+    for (const size_t row : own) {
+      const std::string& configuration = table.text(row, "configuration");
+      const double rate = table.number(row, figure.y_column);
+      const auto place = std::find(figure.x_order.begin(), figure.x_order.end(), configuration);
+      range.add(rate);
+      line.marks.push_back({rate, static_cast<size_t>(place - figure.x_order.begin()),
+                            fmt::format("{}, {}: {}", workload, configuration, shown_number(rate))});
+    }
+    rows.push_back(std::move(line));
+  }
+  return {.html = chart_key(key) + row_chart(rows, AxisScale::for_rates(range.low, range.high),
+                                             RowShape::kDots, figure.y_label, figure.spec.title)};
+}
+
+PageChart share_stacks(const StudyData& data, const Figure& figure) {
+  const FigureTable& table = figure.table;
+  struct Part {
+    const char* column;
+    const char* label;
+    size_t color;
+  };
+  constexpr Part kParts[] = {{"vdcp_only", "coded by VDCP", kFirstPartColor},
+                             {"raw_share", "raw either way", kRawPartColor},
+                             {"ras_only", "coded by RAS", kSecondPartColor}};
+  std::vector<KeyEntry> key;
+  for (const Part& part : kParts) key.push_back({part.label, part.color});
+  std::vector<ChartRow> rows;
+  for (size_t row = 0; row < table.rows.size(); ++row) {
+    const std::string& workload = table.text(row, "workload");
+    ChartRow line{workload, data.category_title(table.text(row, "category")), {}};
+    for (const Part& part : kParts) {
+      const double share = table.number(row, part.column);
+      if (std::isfinite(share))
+        line.marks.push_back(
+            {share * 100, part.color, fmt::format("{}, {}: {}", workload, part.label, shown_percent(share))});
+    }
+    rows.push_back(std::move(line));
+  }
+  return {.html = chart_key(key) + row_chart(rows, AxisScale::linear(100, 20), RowShape::kStack,
+                                             "share of blocks in percent", figure.spec.title)};
+}
+
+PageChart coverage_scatter(const StudyData& data, const Figure& figure) {
+  const FigureTable& table = figure.table;
+  std::vector<ScatterPoint> points;
+  std::vector<KeyEntry> key;
+  ValueRange range;
+  for (size_t row = 0; row < table.rows.size(); ++row) {
+    if (!table.text(row, "frame").empty()) continue;
+    const double coverage = table.number(row, "fvc_coverage"), rate = table.number(row, figure.y_column);
+    const size_t color = category_color(data, table.text(row, "category"));
+    const std::string title = data.category_title(table.text(row, "category"));
+    if (std::none_of(key.begin(), key.end(), [&](const KeyEntry& entry) { return entry.label == title; }))
+      key.push_back({title, color});
+    range.add(rate);
+    points.push_back({coverage, rate, color,
+                      fmt::format("{}: coverage {}, rate {}", table.text(row, "workload"),
+                                  shown_number(coverage), shown_number(rate))});
+  }
+  double threshold = NAN;
+  for (const PublishedPoint& point : figure.spec.published) threshold = std::stod(point.x);
+  return {.html = chart_key(key) + scatter_chart(points, AxisScale::linear(1, 0.1),
+                                                 AxisScale::for_rates(range.low, range.high), figure.x_label,
+                                                 figure.y_label, threshold, figure.spec.title),
+          .remark = "One mark per workload. The CSV file has the frames too."};
+}
+
+}  // namespace tilepress
