@@ -3,11 +3,11 @@
 #include <map>
 
 #include "capture/output_folder.h"
+#include "capture/replay_choices.h"
 #include "capture/replay_outcome.h"
 #include "capture/replay_tables.h"
 #include "capture/shim_launch.h"
 #include "capture/trace_manifest.h"
-#include "choice_option.h"
 #include "command_line.h"
 #include "common_options.h"
 #include "progress_line.h"
@@ -42,7 +42,6 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
   CLI::App app("Replays apitrace traces without a display and captures every frame.");
   app.footer(kExamples);
   ReplayOptions& replay = options.replay;
-  int64_t timeout_s = replay.timeout.count();
   add_run_options(app, replay.run);
   add_capture_options(app, replay.run);
   app.add_option("TRACE", options.traces, "Traces");
@@ -53,26 +52,11 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
       ->type_name("N")
       ->check(CLI::Range(1u, 1024u));
   app.add_flag("--resume", replay.resume, "Keep the finished runs of a batch and replay the other traces");
-  add_choice_option<RetracerChoice>(
-      app, "--api", replay.retracer,
-      {{"auto", RetracerChoice::kAuto}, {"egl", RetracerChoice::kEgl}, {"glx", RetracerChoice::kGlx}},
-      "Retracer: eglretrace or glretrace (default: auto)");
-  add_choice_option<ReplayDisplay>(
-      app, "--display", replay.display,
-      {{"auto", ReplayDisplay::kAuto},
-       {"surfaceless", ReplayDisplay::kSurfaceless},
-       {"xvfb", ReplayDisplay::kXvfb},
-       {"x11", ReplayDisplay::kX11}},
-      "Where to draw: nowhere, on a private Xvfb, or on the X server of DISPLAY (default: auto)");
-  app.add_option("--timeout", timeout_s,
-                 "Seconds without a frame after which a retracer counts as hung (default: 300; 0: never)")
-      ->type_name("S")
-      ->check(CLI::Range(int64_t{0}, int64_t{1} << 30));
+  add_replay_choices(app, replay.retracer, replay.display, replay.timeout);
   add_progress_option(app, options.progress);
   app.add_flag("-v,--verbose", options.verbose, "Explain each step");
   app.add_flag("-q,--quiet", options.quiet, "No table");
   if (auto status = parse_command_line(app, argc, argv)) return status;
-  replay.timeout = std::chrono::seconds(timeout_s);
   if (options.traces.empty() && options.manifest.empty())
     return fail(kExitUsage, "no trace given (see tilepress replay --help)");
   if (replay.run.output == "-") return fail(kExitUsage, "--output -: a replay needs a folder");
