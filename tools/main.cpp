@@ -19,6 +19,8 @@ constexpr Verb kVerbs[] = {
     {"frames", "compress a sequence of images, movies or raw frames", verb_frames, OnSignal::kEndInOrder},
     {"replay", "replay recorded traces without a display and capture their frames", verb_replay,
      OnSignal::kEndInOrder},
+    {"study", "model every configuration of a study on many inputs, and draw its figures", verb_study,
+     OnSignal::kEndInOrder},
     {"record", "record a program into a trace", verb_record, OnSignal::kVerbsOwn},
     {"info", "print what recorded traces hold", verb_info},
     {"bench", "measure the speed of each scheme, memcpy and LZ4", verb_bench},

@@ -1,0 +1,56 @@
+// Model frames: an engine per surface.
+#include "model_frames.h"
+
+#include <map>
+
+#include "study/color_shares.h"
+#include "tilepress/statistics_rows.h"
+#include "tilepress/surface_engine.h"
+
+namespace tilepress {
+namespace {
+
+/// Appends the row of each scheme to the text of that scheme.
+void append_rows(const FrameStatistics& frame, const std::vector<SchemeSpec>& specs, ModelRows& rows) {
+  append_frames_row(frame, rows.frames);
+  FrameStatistics one = frame;
+  for (size_t i = 0; i < specs.size(); ++i) {
+    one.schemes.assign(1, frame.schemes[i]);
+    append_schemes_rows(one, {specs[i].text}, rows.schemes[i]);
+  }
+}
+
+}  // namespace
+
+Result<std::optional<ModelRows>> model_frames(FrameFeed& feed, const RunOptions& options, bool with_colors,
+                                              const std::atomic<int>& stop, std::atomic<uint64_t>& frames_done) {
+  ModelRows rows;
+  rows.schemes.assign(options.schemes.size(), schemes_csv_header());
+  rows.frames = frames_csv_header();
+  ColorShares colors;
+  std::map<uint32_t, SurfaceEngine> engines;
+  FrameStatistics statistics;
+  FedFrame frame;
+  while (stop == 0) {
+    const auto fed = feed.next(frame);
+    if (!fed) return fed.error();
+    if (!*fed) {
+      rows.colors = colors.text();
+      return std::optional(std::move(rows));
+    }
+    if (!options.takes(frame.frame)) continue;
+    SurfaceEngine& engine = engines.try_emplace(frame.surface, options.schemes, options.model).first->second;
+    statistics.frame = frame.frame;
+    statistics.surface = frame.surface;
+    statistics.time_ns = frame.time_ns;
+    statistics.readback_ns = frame.readback_ns;
+    engine.process(frame.view, statistics);
+    append_rows(statistics, options.schemes, rows);
+    if (with_colors && !statistics.warmup) colors.add(color_counts(frame.view));
+    ++rows.frame_count;
+    ++frames_done;
+  }
+  return std::optional<ModelRows>();
+}
+
+}  // namespace tilepress

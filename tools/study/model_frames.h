@@ -1,0 +1,26 @@
+// Model frames: passes the frames of a workload through several configurations at once.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/frame_feed.h"
+#include "tilepress/run_options.h"
+
+namespace tilepress {
+
+struct ModelRows {
+  std::vector<std::string> schemes;  ///< per configuration: schemes.csv with the rows of that one
+  std::string frames;                ///< frames.csv
+  std::string colors;                ///< ColorShares::text()
+  uint64_t frame_count = 0;
+};
+
+/// Models the frames that `options` select with `options.schemes`. `with_colors` fills `colors`. Adds to
+/// `frames_done` after each frame. Returns nothing once `stop` is not 0.
+Result<std::optional<ModelRows>> model_frames(FrameFeed& feed, const RunOptions& options, bool with_colors,
+                                              const std::atomic<int>& stop, std::atomic<uint64_t>& frames_done);
+
+}  // namespace tilepress

@@ -1,0 +1,144 @@
+// Result tables: each column is a line of a table.
+#include "result_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "report/run_summary.h"
+#include "study/configuration_columns.h"
+#include "tilepress/cost_model.h"
+#include "tilepress/csv_table.h"
+#include "tilepress/scheme.h"
+
+namespace tilepress {
+namespace {
+
+void append_optional(std::string& out, const std::optional<double>& value) {
+  if (value) out += csv_number(*value);
+}
+
+/// DRAM and DCP's structures; the paper has no figures for the logic of other schemes.
+std::optional<double> energy_nj(const SchemeSpec& spec, const SchemeStatistics& total) {
+  if (!find_scheme(spec.name)->has_dcp_structures) return std::nullopt;
+  const CostConstants constants;
+  return (static_cast<double>(total.moved_bits()) / 8 * constants.dram_pj_per_byte +
+          static_cast<double>(total.raw_bits) / 8 * constants.structures_pj_per_byte) /
+         1000;
+}
+
+namespace sums_csv {
+using Row = ResultSums;
+constexpr CsvColumn<Row> kColumns[] = {
+    csv_column<Row, &Row::frames>("frames"),
+    TILEPRESS_CSV_FIGURE("blocks", row.total.blocks),
+    TILEPRESS_CSV_FIGURE("raw_bits", row.total.raw_bits),
+    TILEPRESS_CSV_FIGURE("payload_bits", row.total.payload_bits),
+    TILEPRESS_CSV_FIGURE("bursts", row.total.bursts),
+    TILEPRESS_CSV_FIGURE("burst_bits", row.total.burst_bits),
+    TILEPRESS_CSV_FIGURE("csb_bits", row.total.csb_bits),
+    TILEPRESS_CSV_FIGURE("palette_bits", row.total.palette_bits),
+    TILEPRESS_CSV_FIGURE("extra_bits", row.total.extra_bits),
+    TILEPRESS_CSV_FIGURE("moved_bits", row.total.moved_bits()),
+    TILEPRESS_CSV_FIGURE("rate", row.total.rate()),
+    TILEPRESS_CSV_FIGURE("rate_payload", row.total.rate_payload()),
+    TILEPRESS_CSV_FIGURE("rate_with_extra", row.total.rate_with_extra()),
+};
+}  // namespace sums_csv
+
+/// The values of one configuration over the workloads of a category.
+struct ConfigurationValues {
+  std::vector<double> rates, rates_payload;
+  MeanOverFrames coverage, relative_coverage;  ///< over workloads
+
+  void add(const ResultSums& sums) {
+    rates.push_back(sums.total.rate());
+    rates_payload.push_back(sums.total.rate_payload());
+    if (const auto mean = sums.fvc_coverage.mean()) coverage.add(*mean);
+    if (const auto mean = sums.fvc_relative_coverage.mean()) relative_coverage.add(*mean);
+  }
+};
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+namespace means_table {
+using Row = ConfigurationValues;
+constexpr CsvColumn<Row> kColumns[] = {
+    TILEPRESS_CSV_FIGURE("workloads", row.rates.size()),
+    TILEPRESS_CSV_FIGURE("rate_hmean", harmonic_mean(row.rates)),
+    TILEPRESS_CSV_FIGURE("rate_payload_hmean", harmonic_mean(row.rates_payload)),
+    TILEPRESS_CSV_FIGURE("rate_min", *std::ranges::min_element(row.rates)),
+    TILEPRESS_CSV_FIGURE("rate_median", median(row.rates)),
+    TILEPRESS_CSV_FIGURE("rate_max", *std::ranges::max_element(row.rates)),
+    TILEPRESS_CSV_FIGURE("rate_payload_min", *std::ranges::min_element(row.rates_payload)),
+    TILEPRESS_CSV_FIGURE("rate_payload_median", median(row.rates_payload)),
+    TILEPRESS_CSV_FIGURE("rate_payload_max", *std::ranges::max_element(row.rates_payload)),
+    {"fvc_coverage_mean",
+     [](const Row& row, std::string& out) { append_optional(out, row.coverage.mean()); }},
+    {"fvc_relative_coverage_mean",
+     [](const Row& row, std::string& out) { append_optional(out, row.relative_coverage.mean()); }},
+};
+}  // namespace means_table
+
+void append_result(const Workload& workload, const SchemeSpec& spec, const ResultSums& sums, std::string& out) {
+  append_csv(out, workload.name);
+  append_csv(out += ',', workload.category);
+  append_configuration(spec, out += ',');
+  append_csv_fields(sums_csv::kColumns, sums, out += ',');
+  append_optional(out += ',', sums.fvc_coverage.mean());
+  append_optional(out += ',', sums.fvc_relative_coverage.mean());
+  for (const auto& count : sums.own) {
+    out += ',';
+    if (count) append_csv(out, *count);
+  }
+  append_optional(out += ',', energy_nj(spec, sums.total));
+  out += '\n';
+}
+
+/// Empty `category`: all workloads.
+void append_means(const StudyPlan& plan, const std::vector<WorkloadResults>& results, const std::string& category,
+                  std::string& out) {
+  for (size_t i = 0; i < plan.study.configurations.size(); ++i) {
+    ConfigurationValues values;
+    for (size_t workload = 0; workload < results.size(); ++workload) {
+      const auto& sums = results[workload].sums[i];
+      if (!sums || sums->frames == 0) continue;
+      if (category.empty() || plan.workloads[workload].category == category) values.add(*sums);
+    }
+    if (values.rates.empty()) continue;
+    append_csv(out, category.empty() ? "all" : category);
+    append_configuration(plan.study.configurations[i], out += ',');
+    append_csv_row(means_table::kColumns, values, out += ',');
+  }
+}
+
+}  // namespace
+
+std::string results_csv(const StudyPlan& plan, const std::vector<WorkloadResults>& results) {
+  std::string out = "workload,category," + configuration_header() + ",";
+  append_csv_names(sums_csv::kColumns, out);
+  out += ",fvc_coverage,fvc_relative_coverage";
+  for (const std::string_view name : own_column_names()) out.append(",").append(name);
+  out += ",energy_nj\n";
+  for (size_t workload = 0; workload < results.size(); ++workload)
+    for (size_t i = 0; i < plan.study.configurations.size(); ++i)
+      if (const auto& sums = results[workload].sums[i]; sums && sums->frames > 0)
+        append_result(plan.workloads[workload], plan.study.configurations[i], *sums, out);
+  return out;
+}
+
+std::string means_csv(const StudyPlan& plan, const std::vector<WorkloadResults>& results) {
+  std::string out = "category," + configuration_header() + ",";
+  append_csv_names(means_table::kColumns, out);
+  out += '\n';
+  for (const StudyCategory& category : plan.study.categories) append_means(plan, results, category.name, out);
+  append_means(plan, results, "", out);
+  return out;
+}
+
+}  // namespace tilepress

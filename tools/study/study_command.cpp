@@ -1,0 +1,122 @@
+// Study command: runs tasks, then writes tables.
+#include "study_command.h"
+
+#include <charconv>
+#include <chrono>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "capture/shim_launch.h"
+#include "choice_option.h"
+#include "command_line.h"
+#include "counted.h"
+#include "streams/ending_signals.h"
+#include "study/figures/study_outputs.h"
+#include "study/study_tables.h"
+#include "study/study_run.h"
+#include "temporary_folder.h"
+
+namespace tilepress {
+namespace {
+
+/// "2/8"
+std::string set_shard(const std::string& text, Shard& shard) {
+  const size_t slash = text.find('/');
+  const auto number = [&](std::string_view part, uint32_t& out) {
+    const auto [end, code] = std::from_chars(part.data(), part.data() + part.size(), out);
+    return code == std::errc() && end == part.data() + part.size();
+  };
+  Shard given;
+  const bool read = slash != std::string::npos && number(std::string_view(text).substr(0, slash), given.index) &&
+                    number(std::string_view(text).substr(slash + 1), given.count);
+  if (!read || given.index < 1 || given.index > given.count)
+    return "--shard " + text + ": must be I/N with I in 1..N";
+  shard = given;
+  return "";
+}
+
+std::string summary_line(const StudyPlan& plan, const StudyCommand& command, const StudyCounts& counts,
+                         double seconds) {
+  std::string out = fmt::format("study {}: {}, {}", plan.study.name, counted(plan.workloads.size(), "workload"),
+                                counted(plan.study.configurations.size(), "configuration"));
+  if (!command.study.shard.whole())
+    out += fmt::format(", shard {}/{}", command.study.shard.index, command.study.shard.count);
+  out += fmt::format("\n  traces:  {} rendered, {} from the cache\n", counts.rendered, counts.from_cache);
+  out += fmt::format("  results: {} computed, {} kept; {:.1f} s\n", counts.computed, counts.kept, seconds);
+  return out;
+}
+
+bool needs_shim(const StudyPlan& plan) {
+  for (const Workload& workload : plan.workloads)
+    if (workload.kind == WorkloadKind::kTrace) return true;
+  return false;
+}
+
+}  // namespace
+
+void add_work_options(CLI::App& app, StudyCommand& command) {
+  command.study.jobs = std::max(1u, std::thread::hardware_concurrency());
+  app.add_option("-j,--jobs", command.study.jobs,
+                 "Tasks to model at a time (default: the number of processors); the results are the same")
+      ->type_name("N")
+      ->check(CLI::Range(1u, 1024u));
+  app.add_option_function<std::string>(
+         "--shard",
+         [&command](const std::string& text) {
+           if (const std::string fault = set_shard(text, command.study.shard); !fault.empty())
+             throw CLI::ValidationError(fault);
+         },
+         "Run part I of N of the tasks; `study merge` writes the tables when all parts are done")
+      ->type_name("I/N");
+  add_choice_option<StudyLauncher>(
+      app, "--launcher", command.launcher, {{"local", StudyLauncher::kLocal}, {"slurm", StudyLauncher::kSlurm}},
+      "Run the tasks here, or submit them to Slurm as an array job (default: local)");
+  add_progress_option(app, command.progress);
+  app.add_flag("-v,--verbose", command.verbose, "Explain each step");
+  app.add_flag("-q,--quiet", command.quiet, "Print no progress and no summary");
+}
+
+void say_faults(const StudyPlan& plan) {
+  for (const Error& fault : plan.faults) fail(kExitFailed, fault);
+  for (const std::string& remark : plan.study.remarks) say(MessageLevel::kWarning, remark);
+}
+
+int write_outcome(const StudyPlan& plan, const StudyOptions& options, bool quiet) {
+  if (const auto tables = write_study_tables(plan, options); !tables) return fail(kExitFailed, tables.error());
+  const auto lines = write_study_outputs(options.folder);
+  if (!lines) return fail(kExitFailed, lines.error());
+  for (const std::string& line : *lines) say(MessageLevel::kWarning, line);
+  if (!quiet) show("  tables:  " + options.folder + "/results.csv, means.csv, workloads.csv\n");
+  return kExitDone;
+}
+
+int execute_study(const StudyPlan& plan, StudyCommand& command) {
+  const auto begin = std::chrono::steady_clock::now();
+  TemporaryFolder links;
+  if (needs_shim(plan)) {
+    const auto shim = preloadable_shim(false, links);
+    if (!shim) return fail(kExitFailed, shim.error());
+    command.study.render.shim = *shim;
+  }
+  StudyCounts counts;
+  {
+    ProgressLine progress(command.quiet ? ProgressMode::kNever : command.progress, "study");
+    counts = run_study(plan, command.study, noted_signal(),
+                       [&](uint64_t done, std::optional<uint64_t> total) { progress.show(done, total); });
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (counts.interrupted)
+    return fail(128 + noted_signal(), signal_text(noted_signal()) + ": " + counted(counts.computed, "result") +
+                                          " computed; call again to go on");
+  if (!command.quiet) show(summary_line(plan, command, counts, seconds));
+  if (counts.elsewhere > 0)
+    say(MessageLevel::kWarning, counted(counts.elsewhere, "task") +
+                                    " run in another process; `tilepress study merge` writes their results later");
+  const bool failed = counts.failed > 0 || !plan.faults.empty();
+  if (!command.study.shard.whole()) return failed ? kExitFailed : kExitDone;
+  const int written = write_outcome(plan, command.study, command.quiet);
+  return written == kExitDone && failed ? kExitFailed : written;
+}
+
+}  // namespace tilepress

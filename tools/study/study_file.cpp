@@ -1,0 +1,229 @@
+// Study file: toml++ reads the text, tables name the keys that each part takes.
+#include "study_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#define TOML_EXCEPTIONS 0
+#include <toml++/toml.h>
+
+#include "study/configuration.h"
+#include "study/study_assets.h"
+#include "study/text_file.h"
+
+namespace tilepress {
+namespace {
+
+Error at_line(const toml::node& node, const std::string& reason) {
+  return {ErrorKind::kBadValue, "line " + std::to_string(node.source().begin.line) + ": " + reason};
+}
+
+/// A number or text as text.
+Result<std::string> word(const toml::node& node) {
+  if (const auto text = node.value_exact<std::string>()) return *text;
+  if (const auto number = node.value_exact<int64_t>()) return std::to_string(*number);
+  if (const auto number = node.value_exact<double>()) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << *number;
+    return text.str();
+  }
+  return at_line(node, "must be text or a number");
+}
+
+Result<std::vector<std::string>> words(const toml::node& node) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr) return at_line(node, "must be a list");
+  std::vector<std::string> out;
+  for (const toml::node& element : *list) {
+    auto text = word(element);
+    if (!text) return text.error();
+    out.push_back(*text);
+  }
+  return out;
+}
+
+/// Where the keys of a table go. Keys of `ignored` are read elsewhere.
+struct TableKeys {
+  std::vector<std::pair<std::string_view, std::string*>> texts = {};
+  std::vector<std::pair<std::string_view, std::vector<std::string>*>> lists = {};
+  std::vector<std::string_view> ignored = {};
+};
+
+template <class Places>
+auto place_of(const Places& places, std::string_view key) {
+  return std::ranges::find(places, key, [](const auto& place) { return place.first; });
+}
+
+Result<void> take_table(const toml::table& table, const TableKeys& keys) {
+  for (const auto& [key_node, node] : table) {
+    const std::string_view key = key_node.str();
+    if (const auto place = place_of(keys.texts, key); place != keys.texts.end()) {
+      const auto text = word(node);
+      if (!text) return about(key, text.error());
+      *place->second = *text;
+    } else if (const auto list = place_of(keys.lists, key); list != keys.lists.end()) {
+      const auto texts = words(node);
+      if (!texts) return about(key, texts.error());
+      *list->second = *texts;
+    } else if (std::ranges::find(keys.ignored, key) == keys.ignored.end()) {
+      return at_line(node, "unknown key '" + std::string(key) + "'");
+    }
+  }
+  return {};
+}
+
+/// Calls `take` for each table of the list `name`. No list is no error.
+template <class Take>
+Result<void> for_each_table(const toml::table& root, std::string_view name, const Take& take) {
+  const toml::node* node = root.get(name);
+  if (node == nullptr) return {};
+  const toml::array* list = node->as_array();
+  if (list == nullptr) return at_line(*node, "write [[" + std::string(name) + "]]");
+  for (const toml::node& entry : *list) {
+    if (!entry.is_table()) return at_line(entry, "write [[" + std::string(name) + "]]");
+    if (const Result<void> taken = take(*entry.as_table()); !taken) return taken;
+  }
+  return {};
+}
+
+class StudyParser {
+ public:
+  Result<StudyFile> parse(const toml::table& root) {
+    std::vector<std::string> listed;
+    const TableKeys keys{{{"name", &study_.name}, {"title", &study_.title}, {"baseline", &study_.baseline}},
+                         {{"configurations", &listed}, {"inputs", &study_.inputs}},
+                         {"category", "axis", "figure"}};
+    Result<void> done = take_table(root, keys);
+    if (done) done = take_name(root);
+    for (size_t i = 0; done && i < listed.size(); ++i) {
+      const auto added = add_configuration(*root.get("configurations"), listed[i]);
+      if (!added) done = added.error();
+    }
+    if (done) done = for_each_table(root, "category", [&](const auto& table) { return take_category(table); });
+    if (done) done = for_each_table(root, "axis", [&](const auto& table) { return take_axis(table); });
+    if (done) done = take_figures(root);
+    if (!done) return done.error();
+    study_.configurations = configurations_.specs();
+    if (study_.configurations.empty())
+      return Error{ErrorKind::kBadValue, "has no configurations (list them, or declare an [[axis]])"};
+    return finish(root);
+  }
+
+ private:
+  Result<void> take_name(const toml::table& root) {
+    if (study_.name.empty()) return at_line(root, "name = \"...\" is missing");
+    if (study_.title.empty()) study_.title = study_.name;
+    return {};
+  }
+
+  Result<std::string> add_configuration(const toml::node& where, const std::string& text) {
+    const auto spec = parse_scheme(text);
+    if (!spec) return at_line(where, spec.error().text);
+    return configurations_.add(*spec);
+  }
+
+  Result<void> take_category(const toml::table& table) {
+    StudyCategory category;
+    const auto taken = take_table(table, {{{"name", &category.name}, {"title", &category.title}},
+                                          {{"workloads", &category.workloads}}});
+    if (!taken) return taken;
+    if (category.name.empty()) return at_line(table, "a category without name");
+    if (std::ranges::count(study_.categories, category.name, &StudyCategory::name) > 0)
+      return at_line(table, "the category '" + category.name + "' is there twice");
+    if (category.title.empty()) category.title = category.name;
+    study_.categories.push_back(std::move(category));
+    return {};
+  }
+
+  Result<void> take_axis(const toml::table& table) {
+    StudyAxis axis;
+    const auto taken = take_table(table, {{{"name", &axis.name},
+                                           {"title", &axis.title},
+                                           {"scheme", &axis.scheme},
+                                           {"key", &axis.key},
+                                           {"fixed", &axis.fixed}},
+                                          {{"values", &axis.values}}});
+    if (!taken) return taken;
+    if (axis.name.empty() || axis.scheme.empty() || axis.key.empty())
+      return at_line(table, "an axis needs name, scheme and key");
+    if (std::ranges::count(study_.axes, axis.name, &StudyAxis::name) > 0)
+      return at_line(table, "the axis '" + axis.name + "' is there twice");
+    if (axis.title.empty()) axis.title = axis.key;
+    if (axis.values.empty()) {
+      study_.remarks.push_back("axis '" + axis.name + "' has no values and is left out");
+      return {};
+    }
+    for (const std::string& value : axis.values) {
+      const std::string fixed = axis.fixed.empty() ? "" : axis.fixed + ",";
+      // The list holds the shortest name of a configuration: an axis passes through the base.
+      const auto spec = parse_scheme(axis.scheme + ":" + fixed + axis.key + "=" + value);
+      if (!spec) return at_line(table, "axis '" + axis.name + "': " + spec.error().text);
+      const auto named = add_configuration(table, canonical_text(*spec));
+      if (!named) return named.error();
+      axis.configurations.push_back(*named);
+    }
+    study_.axes.push_back(std::move(axis));
+    return {};
+  }
+
+  /// Who draws the figures checks them.
+  Result<void> take_figures(const toml::table& root) {
+    const toml::node* figures = root.get("figure");
+    study_.figures_json = "[]";
+    if (figures == nullptr) return {};
+    if (!figures->is_array_of_tables()) return at_line(*figures, "write [[figure]]");
+    std::ostringstream json;
+    json << toml::json_formatter{*figures};
+    study_.figures_json = json.str();
+    return {};
+  }
+
+  Result<StudyFile> finish(const toml::table& root) {
+    if (study_.baseline.empty()) study_.baseline = study_.configurations.front().text;
+    const auto spec = parse_scheme(study_.baseline);
+    if (!spec) return at_line(*root.get("baseline"), spec.error().text);
+    const std::string& named = configurations_.add(*spec);
+    if (configurations_.specs().size() != study_.configurations.size())
+      return at_line(*root.get("baseline"), "baseline '" + study_.baseline + "' is no configuration of the study");
+    study_.baseline = named;
+    return std::move(study_);
+  }
+
+  StudyFile study_;
+  ConfigurationList configurations_;
+};
+
+}  // namespace
+
+Result<StudyFile> parse_study(std::string_view text) {
+  const toml::parse_result table = toml::parse(text);
+  if (!table)
+    return Error{ErrorKind::kBadValue, "line " + std::to_string(table.error().source().begin.line) + ": " +
+                                           std::string(table.error().description())};
+  auto study = StudyParser().parse(table);
+  if (study) study->text = text;
+  return study;
+}
+
+std::string built_in_study(std::string_view name) {
+  return name == "paper" ? std::string(kPaperStudy).append(kPaperFigures) : "";
+}
+
+std::string_view example_study() {
+  return kExampleStudy;
+}
+
+Result<StudyFile> load_study(const std::string& name) {
+  const std::string built_in = built_in_study(name);
+  const auto text = built_in.empty() ? read_text_file(name) : Result<std::string>(built_in);
+  if (!text) return text.error();
+  auto study = parse_study(*text);
+  if (!study) return about(name, study.error());
+  const auto folder = std::filesystem::path(name).parent_path();
+  for (std::string& input : study->inputs) input = (folder / input).lexically_normal().string();
+  return study;
+}
+
+}  // namespace tilepress

@@ -1,0 +1,74 @@
+// Study plan: chunks and tasks.
+#include "study_plan.h"
+
+#include <algorithm>
+
+#include "study/configuration.h"
+#include "tilepress/file_digest.h"
+
+namespace tilepress {
+namespace {
+
+constexpr size_t kIdDigits = 10;
+
+/// Equal for configurations that share tables: the values of all their keys.
+std::string shared_tables(const SchemeSpec& spec) {
+  std::string out;
+  for (const auto& [key, value] : key_values(spec)) out += std::string(key) + "=" + value + ",";
+  return out;
+}
+
+std::string task_id(const Workload& workload, const StudyFile& study, const std::vector<size_t>& chunk,
+                    const RunOptions& run) {
+  RunOptions options = run;
+  options.schemes.clear();
+  for (const size_t i : chunk) options.schemes.push_back(study.configurations[i]);
+  const auto digest = sha256_of_bytes(rows_fingerprint(options));
+  return workload.name + "-" + (digest ? digest->substr(0, kIdDigits) : std::to_string(chunk.front()));
+}
+
+}  // namespace
+
+std::vector<std::vector<size_t>> chunk_configurations(const std::vector<SchemeSpec>& configurations,
+                                                      size_t chunk) {
+  std::vector<std::pair<std::string, std::vector<size_t>>> groups;
+  for (size_t i = 0; i < configurations.size(); ++i) {
+    const std::string tables = shared_tables(configurations[i]);
+    auto group = std::ranges::find(groups, tables, [](const auto& known) { return known.first; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {tables, {}});
+    group->second.push_back(i);
+  }
+  std::vector<std::vector<size_t>> chunks;
+  for (const auto& [tables, members] : groups) {
+    if (chunks.empty() || chunks.back().size() + members.size() > std::max<size_t>(1, chunk)) chunks.emplace_back();
+    chunks.back().insert(chunks.back().end(), members.begin(), members.end());
+  }
+  return chunks;
+}
+
+std::vector<StudyTask> plan_tasks(const StudyFile& study, const std::vector<Workload>& workloads,
+                                  const StudyOptions& options) {
+  const auto chunks = chunk_configurations(study.configurations, options.chunk);
+  const auto whole = chunk_configurations(study.configurations, study.configurations.size());
+  std::vector<StudyTask> tasks;
+  for (size_t workload = 0; workload < workloads.size(); ++workload)
+    for (const auto& chunk : workloads[workload].kind == WorkloadKind::kRun ? whole : chunks)
+      tasks.push_back({task_id(workloads[workload], study, chunk, options.run), workload, chunk});
+  return tasks;
+}
+
+Result<StudyPlan> make_plan(const StudyOptions& options) {
+  auto study = load_study(options.study);
+  if (!study) return study.error();
+  StudyPlan plan{std::move(*study), {}, {}, {}};
+  const std::vector<std::string>& inputs = options.inputs.empty() ? plan.study.inputs : options.inputs;
+  if (inputs.empty()) return Error{ErrorKind::kBadValue, "no input given (see tilepress study --help)"};
+  FoundWorkloads found = find_workloads(inputs);
+  plan.workloads = std::move(found.list);
+  plan.faults = std::move(found.faults);
+  apply_categories(options.categories, plan.study, plan.workloads);
+  plan.tasks = plan_tasks(plan.study, plan.workloads, options);
+  return plan;
+}
+
+}  // namespace tilepress

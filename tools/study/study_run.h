@@ -1,0 +1,31 @@
+// Study run: prepares workloads and runs tasks, on threads.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "study/study_task.h"
+
+namespace tilepress {
+
+struct StudyCounts {
+  uint64_t rendered = 0, from_cache = 0;  ///< traces
+  uint64_t computed = 0, kept = 0;        ///< results: a workload and a configuration
+  uint64_t failed = 0;                    ///< workloads without frames, and tasks that failed
+  uint64_t elsewhere = 0;                 ///< tasks that another process works on
+  bool interrupted = false;
+};
+
+/// Frames modelled or rendered so far, and all frames once they are known.
+using StudyProgress = std::function<void(uint64_t, std::optional<uint64_t>)>;
+
+/// Runs the tasks of the shard. One thread renders, so that the tasks of a workload start while the next one is
+/// rendered; `options.jobs` threads model. Says one line for each workload or task that fails; the others go
+/// on. Calls `progress` about ten times a second from this thread.
+StudyCounts run_study(const StudyPlan& plan, const StudyOptions& options, const std::atomic<int>& stop,
+                      const StudyProgress& progress);
+
+}  // namespace tilepress
