@@ -8,6 +8,7 @@
 #include <cstring>
 #include <set>
 
+#include "frames/cached_surface.h"
 #include "frames/piped_file.h"
 #include "images/image_kind.h"
 #include "images/image_library.h"
@@ -74,7 +75,7 @@ class SourceFinder {
     return {};
   }
 
-  Result<void> accept(const ImageHeader& image) {
+  Result<void> accept_size(const ImageHeader& image) {
     const FrameSize size{image.width, image.height};
     const auto refuse = [&](const std::string& why) {
       return Error{ErrorKind::kUnsupported, "is " + size.text() + ", " + why};
@@ -84,12 +85,44 @@ class SourceFinder {
       return refuse("more than " + std::to_string(kMostImagePixels) + " pixels");
     if (found_.size == FrameSize{}) found_.size = size;
     if (size != found_.size) return refuse("the sequence is " + found_.size.text());
-    if (image.channels == 2 || image.channels == 4) found_.format = PixelFormat::kRgba8;
+    return {};
+  }
+
+  Result<void> accept(const ImageHeader& image) {
+    if (const auto accepted = accept_size(image); !accepted) return accepted;
+    return accept(image.channels == 2 || image.channels == 4 ? PixelFormat::kRgba8 : PixelFormat::kRgbx8);
+  }
+
+  Result<void> accept(PixelFormat format) {
+    const auto is_of_images = [](PixelFormat each) {
+      return each == PixelFormat::kRgba8 || each == PixelFormat::kRgbx8;
+    };
+    if (found_.list.empty()) found_.format = format;
+    if (is_of_images(format) && is_of_images(found_.format)) {
+      if (format == PixelFormat::kRgba8) found_.format = format;
+    } else if (format != found_.format) {
+      return Error{ErrorKind::kUnsupported, "is " + std::string(traits(format).name) + ", the sequence is " +
+                                                std::string(traits(found_.format).name)};
+    }
+    return {};
+  }
+
+  Result<void> add_cached_frames(const std::string& name, const std::string& path,
+                                 const std::shared_ptr<Pipe>& kept) {
+    const auto surface = largest_cached_surface(path);
+    if (!surface) return surface.error();
+    const ImageHeader image{surface->width, surface->height, 3};
+    if (const auto accepted = accept_size(image); !accepted) return accepted;
+    if (const auto accepted = accept(surface->format); !accepted) return accepted;
+    for (const uint32_t index : surface->frames)
+      add({FrameSource::Kind::kCached, name, path, index, kept, surface->cache});
+    if (!surface->left_out.empty()) say(MessageLevel::kWarning, name + ": " + surface->left_out);
     return {};
   }
 
   /// `kept` keeps the file at `path` open.
   Result<void> add_image_file(const std::string& name, const std::string& path, std::shared_ptr<Pipe> kept) {
+    if (is_frame_cache(path)) return add_cached_frames(name, path, kept);
     std::string left_out;
     {
       const QuietStandardError quiet;
@@ -100,7 +133,7 @@ class SourceFinder {
         if (const auto accepted = accept(file.images()[image]); !accepted)
           return image == 0 ? accepted.error() : about("image " + std::to_string(image), accepted.error());
         const auto kind = file.is_sequence() ? FrameSource::Kind::kSequence : FrameSource::Kind::kImage;
-        add({kind, name, path, image, kept});
+        add({kind, name, path, image, kept, nullptr});
       }
       left_out = file.left_out();
     }
@@ -115,7 +148,7 @@ class SourceFinder {
     if (static_cast<uint64_t>(status.st_size) != found_.frame_bytes())
       return Error{ErrorKind::kFile, std::to_string(status.st_size) + " bytes, a raw frame of " +
                                          found_.size.text() + " has " + std::to_string(found_.frame_bytes())};
-    add({FrameSource::Kind::kRawFile, path, path, 0, nullptr});
+    add({FrameSource::Kind::kRawFile, path, path, 0, nullptr, nullptr});
     return {};
   }
 
@@ -125,7 +158,7 @@ class SourceFinder {
     const std::shared_ptr<Pipe> pipe = *opened;
     if (all_raw() || (takes_raw_ && (path == "-" || !is_surely_image(pipe->peek(kImageKindBytes))))) {
       found_.format = raw_format_;
-      add({FrameSource::Kind::kRawPipe, path, path, 0, pipe});
+      add({FrameSource::Kind::kRawPipe, path, path, 0, pipe, nullptr});
       return {};
     }
     const std::string& start = pipe->peek(kMovieStartBytes);

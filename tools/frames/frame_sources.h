@@ -13,16 +13,18 @@
 
 namespace tilepress {
 
+class FrameCacheReader;
 class Pipe;
 
-/// One image, one raw file, or all frames of a pipe or a sequence.
+/// One image, one raw file, one frame of a frame cache, or all frames of a pipe or a sequence.
 struct FrameSource {
-  enum class Kind : uint8_t { kImage, kSequence, kRawFile, kRawPipe };
+  enum class Kind : uint8_t { kImage, kSequence, kRawFile, kRawPipe, kCached };
   Kind kind = Kind::kImage;
-  std::string name;            ///< as the user gave it
-  std::string path;            ///< where the bytes are
-  uint32_t image = 0;          ///< number of the image in its file
-  std::shared_ptr<Pipe> pipe;  ///< a raw pipe, or what keeps the file at `path` open
+  std::string name;                               ///< as the user gave it
+  std::string path;                               ///< where the bytes are
+  uint32_t image = 0;                             ///< number of the image, or index of the frame, in its file
+  std::shared_ptr<Pipe> pipe;                     ///< a raw pipe, or what keeps the file at `path` open
+  std::shared_ptr<const FrameCacheReader> cache;  ///< the open file of a cached frame
 
   bool is_raw() const { return kind == Kind::kRawFile || kind == Kind::kRawPipe; }
   /// The frames come in order, each once; their number is not known before.
@@ -32,8 +34,9 @@ struct FrameSource {
 struct FrameSources {
   std::vector<FrameSource> list;
   FrameSize size;
-  PixelFormat format = PixelFormat::kRgbx8;  ///< kRgba8 if any image has alpha, or that of raw frames
-  bool streamed = false;                     ///< any source is a stream
+  PixelFormat format =
+      PixelFormat::kRgbx8;  ///< kRgba8 if any image has alpha, or that of raw or cached frames
+  bool streamed = false;    ///< any source is a stream
 
   uint64_t frame_bytes() const { return size.pixels() * (traits(format).pixel_bits / 8); }
 };

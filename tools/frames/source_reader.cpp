@@ -57,6 +57,17 @@ Result<bool> SourceReader::read(const FrameSource& source, FrameSize size, std::
   return done;
 }
 
+Result<bool> SourceReader::read_cached(const FrameSource& source, std::span<std::byte> out) {
+  if (cache_of_ != source.cache) {
+    cache_ = source.cache->another();
+    cache_of_ = source.cache;
+  }
+  const auto view = cache_.view(source.image);
+  if (!view) return view.error();
+  std::memcpy(out.data(), view->top_row, out.size());
+  return true;
+}
+
 Result<bool> SourceReader::read_image(const FrameSource& source, FrameSize size, std::span<std::byte> out) {
   const QuietStandardError quiet;
   if (file_ == nullptr || path_ != source.path) {

@@ -8,6 +8,7 @@
 
 #include "frames/frame_sources.h"
 #include "images/image_library.h"
+#include "study/cache/frame_cache.h"
 
 namespace tilepress {
 
@@ -21,9 +22,12 @@ class SourceReader {
   void close() { file_.reset(); }
 
  private:
+  Result<bool> read_cached(const FrameSource& source, std::span<std::byte> out);
   Result<bool> read_image(const FrameSource& source, FrameSize size, std::span<std::byte> out);
   std::string path_;
   std::unique_ptr<ImageFile> file_;  ///< the file at path_, or null
+  FrameCacheReader cache_;           ///< for frames of cache_of_
+  std::shared_ptr<const FrameCacheReader> cache_of_;
 };
 
 }  // namespace tilepress
