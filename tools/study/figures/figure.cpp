@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/html_text.h"
 #include "study/figures/figure_makers.h"
 #include "tilepress/csv_table.h"
 
@@ -68,6 +69,9 @@ std::span<const FigureKind> figure_kinds() {
 }
 
 Result<Figure> make_figure(const StudyData& data, const FigureSpec& spec) {
+  if (spec.name.empty() || spec.name != file_slug(spec.name))
+    return Error{ErrorKind::kBadValue,
+                 fmt::format("figure '{}': a name has letters, digits, '.', '-' and '_' only", spec.name)};
   const auto kind = std::find_if(std::begin(kKinds), std::end(kKinds),
                                  [&](const FigureKind& known) { return spec.kind == known.name; });
   if (kind == std::end(kKinds))

@@ -170,7 +170,7 @@ def draw_grouped_bars(drawing, group_column, groups, member_column, members, sty
         for x, row in places:
             value, low, high = (number(row[name]) for name in (about["y_column"], "minimum", "maximum"))
             axes.plot([x, x], [low, min(high, top)], color="0.35", linewidth=0.6, marker="" if high <= top else None, zorder=3)
-            axes.annotate(f"{value:.2f}", (x, 0), (0, 2), textcoords="offset points", ha="center", va="bottom", fontsize=5.5,
+            axes.annotate(f"{value:.2f}" if value < 9.995 else f"{value:.1f}", (x, 0), (0, 2), textcoords="offset points", ha="center", va="bottom", fontsize=5.5,
                           rotation=90 if len(groups) * len(members) > 12 else 0,
                           bbox={"boxstyle": "square,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.85}, zorder=4)
             if row["published"]:

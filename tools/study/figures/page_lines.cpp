@@ -122,12 +122,18 @@ PageChart change_lines(const StudyData&, const Figure& figure) {
       plot.y_max = 1;
       plot.file = fmt::format("{}-{}-surface{}.csv", figure.spec.name, file_slug(workload), key.second);
       plot.lines = {{"pixel change", 0, {}}, {"colour change", 1, {}}};
+      const std::string& category = table.text(own.front(), "category");
+      for (const PublishedPoint& point : figure.spec.published)
+        if (point.category == category)
+          plot.lines.push_back(
+              point.x == "pixel_change"
+                  ? PlotLine{"pixel change, paper's mean", 5, std::vector(own.size(), point.value)}
+                  : PlotLine{"colour change, paper's mean", 4, std::vector(own.size(), point.value)});
       for (const size_t row : own) {
         plot.x.push_back(table.number(row, "frame"));
         plot.lines[0].y.push_back(table.number(row, "pixel_change"));
         plot.lines[1].y.push_back(table.number(row, "color_change"));
       }
-      const std::string& category = table.text(own.front(), "category");
       reduce_line_plot(plot, kMaxPoints);
       std::string label = category.empty() ? workload : workload + " (" + category + ")";
       if (key.second != "0") label += ", surface " + key.second;
@@ -148,8 +154,11 @@ PageChart cdf_lines(const StudyData&, const Figure& figure) {
     cells[table.number(row, "colors")][table.text(row, "workload")] = table.number(row, "pixels_share");
   for (size_t i = 0; i < chosen.size(); ++i) plot.lines.push_back({chosen[i], i, {}});
   std::vector<PlotLine> paper;
+  std::vector<PublishedPoint> marks;
   for (const PublishedPoint& point : figure.spec.published) {
-    cells[std::stod(point.x)];
+    if (std::isnan(point.number())) continue;
+    cells[point.number()];
+    marks.push_back(point);
     paper.push_back({"paper, " + point.category, plot.lines.size() + paper.size(), {}, true});
   }
   for (const auto& [colors, shares] : cells) {
@@ -159,8 +168,7 @@ PageChart cdf_lines(const StudyData&, const Figure& figure) {
       plot.lines[i].y.push_back(found == shares.end() ? kNone : found->second);
     }
     for (size_t i = 0; i < paper.size(); ++i) {
-      const PublishedPoint& point = figure.spec.published[i];
-      paper[i].y.push_back(std::stod(point.x) == colors ? point.value : kNone);
+      paper[i].y.push_back(marks[i].number() == colors ? marks[i].value : kNone);
     }
   }
   plot.lines.insert(plot.lines.end(), paper.begin(), paper.end());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "counted.h"
 #include "report/html_text.h"
 #include "study/figures/page_figures.h"
 
@@ -46,6 +47,13 @@ PageChart comparison_chart(const StudyData& data, const Figure& figure, const st
                                                         RowShape::kBars, figure.y_label, figure.spec.title)};
 }
 
+/// A chart with many rows is folded: the page stays short.
+std::string folded(size_t rows, const std::string& html) {
+  constexpr size_t kOpenRows = 60;
+  if (rows <= kOpenRows) return html;
+  return fmt::format("<details><summary>{}</summary>\n{}</details>\n", counted(rows, "workload"), html);
+}
+
 /// The workloads of a figure with the rows of each, in the figure's order.
 std::vector<std::pair<std::string, std::vector<size_t>>> rows_of_workloads(const FigureTable& table) {
   std::vector<std::pair<std::string, std::vector<size_t>>> out;
@@ -85,8 +93,9 @@ PageChart rate_dots(const StudyData& data, const Figure& figure) {
     }
     rows.push_back(std::move(line));
   }
-  return {.html = chart_key(key) + row_chart(rows, AxisScale::for_rates(range.low, range.high),
-                                             RowShape::kDots, figure.y_label, figure.spec.title)};
+  return {.html = folded(rows.size(),
+                         chart_key(key) + row_chart(rows, AxisScale::for_rates(range.low, range.high),
+                                                    RowShape::kDots, figure.y_label, figure.spec.title))};
 }
 
 PageChart share_stacks(const StudyData& data, const Figure& figure) {
@@ -113,8 +122,9 @@ PageChart share_stacks(const StudyData& data, const Figure& figure) {
     }
     rows.push_back(std::move(line));
   }
-  return {.html = chart_key(key) + row_chart(rows, AxisScale::linear(100, 20), RowShape::kStack,
-                                             "share of blocks in percent", figure.spec.title)};
+  return {.html = folded(rows.size(),
+                         chart_key(key) + row_chart(rows, AxisScale::linear(100, 20), RowShape::kStack,
+                                                    "share of blocks in percent", figure.spec.title))};
 }
 
 PageChart coverage_scatter(const StudyData& data, const Figure& figure) {
@@ -135,7 +145,7 @@ PageChart coverage_scatter(const StudyData& data, const Figure& figure) {
                                   shown_number(coverage), shown_number(rate))});
   }
   double threshold = NAN;
-  for (const PublishedPoint& point : figure.spec.published) threshold = std::stod(point.x);
+  for (const PublishedPoint& point : figure.spec.published) threshold = point.number();
   return {.html = chart_key(key) + scatter_chart(points, AxisScale::linear(1, 0.1),
                                                  AxisScale::for_rates(range.low, range.high), figure.x_label,
                                                  figure.y_label, threshold, figure.spec.title),

@@ -111,6 +111,7 @@ Result<StudyData> read_study_data(const std::string& study_folder) {
   auto spec = read_study_spec(study_folder + "/study.json");
   if (!spec) return spec.error();
   data.spec = std::move(*spec);
+  data.facts = read_render_facts(study_folder + "/provenance.json");
   for (const StudyFile& file : kFiles) {
     const std::string path = study_folder + "/" + file.name;
     if (!file.required && !std::filesystem::exists(path)) continue;

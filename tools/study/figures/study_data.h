@@ -19,6 +19,8 @@ class StudyData {
  public:
   StudySpec spec;
   StudyTable results, means, workloads, frame_metrics, color_cdf, frame_rates;
+  /// What rendered the frames, from provenance.json: name and distinct values.
+  std::vector<std::pair<std::string, std::string>> facts;
 
   /// Row of results.csv.
   std::optional<size_t> result_row(const std::string& workload, const std::string& configuration) const;

@@ -74,10 +74,11 @@ class LineSeries {
 };
 
 std::string file_links(const Figure& figure, bool drawn) {
-  std::string out = "<p class=\"note\">Files:";
-  for (const char* ending : {"csv", "svg", "pdf"})
+  constexpr std::pair<const char*, const char*> kFiles[] = {{"csv", "CSV"}, {"svg", "SVG"}, {"pdf", "PDF"}};
+  std::string out = "<p class=\"note\">This figure as";
+  for (const auto& [ending, text] : kFiles)
     if (drawn || std::string_view(ending) == "csv")
-      out += fmt::format(" <a href=\"figures/{0}.{1}\">{0}.{1}</a>", escape_html(figure.spec.name), ending);
+      out += fmt::format(" <a href=\"figures/{}.{}\">{}</a>", escape_html(figure.spec.name), ending, text);
   return out + "</p>\n";
 }
 
@@ -90,7 +91,8 @@ std::string figure_section(const StudyData& data, const Figure& figure, bool dra
   if (!chart.html.empty()) out += "<div class=\"chart\">\n" + chart.html + "</div>\n";
   if (!chart.lines.plots.empty()) out += series.add(chart.lines);
   out += file_links(figure, drawn);
-  if (figure.table.rows.size() <= kMaxTableRows)
+  // Line charts have a table of their own.
+  if (chart.lines.plots.empty() && figure.table.rows.size() <= kMaxTableRows)
     out += "<details><summary>The rows of the CSV file</summary>\n" + table_html(figure_table(figure)) +
            "</details>\n";
   return out + "</section>\n";
@@ -99,7 +101,9 @@ std::string figure_section(const StudyData& data, const Figure& figure, bool dra
 std::string table_section(const DocumentTable& table) {
   std::string out = fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", table.name, escape_html(table.caption));
   if (!table.note.empty()) out += "<p class=\"note\">" + escape_html(table.note) + "</p>\n";
-  const std::string text = table_html(table.page_table());
+  Table shown = table.page_table();
+  shown.caption.clear();  // the heading says it
+  const std::string text = table_html(shown);
   out += table.rows.size() <= kOpenRows ? text
                                         : fmt::format("<details><summary>{}</summary>\n{}</details>\n",
                                                       counted(table.rows.size(), "row"), text);

@@ -1,9 +1,13 @@
 // Study specification: from JSON to structs. Unknown keys are for other parts of the study.
 #include "study/figures/study_spec.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tilepress/csv_table.h"
 
@@ -76,10 +80,31 @@ StudySpec spec_of(const Json& json) {
 
 }  // namespace
 
+double PublishedPoint::number() const {
+  double number = 0;
+  return read_csv(x, number) ? number : NAN;
+}
+
 const FigureAxis* StudySpec::find_axis(const std::string& wanted) const {
   const auto found =
       std::find_if(axes.begin(), axes.end(), [&](const FigureAxis& axis) { return axis.name == wanted; });
   return found == axes.end() ? nullptr : &*found;
+}
+
+std::vector<std::pair<std::string, std::string>> read_render_facts(const std::string& path) {
+  constexpr std::pair<const char*, const char*> kFacts[] = {{"renderer", "gl_renderer"},
+                                                            {"GL version", "gl_version"}};
+  std::vector<std::pair<std::string, std::string>> out;
+  std::ifstream file(path);
+  const Json json = Json::parse(file, nullptr, false);
+  if (!json.is_object()) return out;
+  for (const auto& [name, key] : kFacts) {
+    std::set<std::string> values;
+    for (const Json& workload : list_at(json, "workloads"))
+      if (const std::string text = text_at(workload, key); !text.empty()) values.insert(text);
+    if (!values.empty()) out.emplace_back(name, fmt::format("{}", fmt::join(values, ", ")));
+  }
+  return out;
 }
 
 Result<StudySpec> read_study_spec(const std::string& path) {

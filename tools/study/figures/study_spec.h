@@ -24,6 +24,8 @@ struct PublishedPoint {
   std::string x;         ///< value of the axis, or a configuration
   std::string category;  ///< empty: of every category
   double value = 0;
+  /// `x` as a number; NaN for a word.
+  double number() const;
 };
 
 /// One figure of the study file.
@@ -52,6 +54,10 @@ struct StudySpec {
   /// Null if there is no such axis.
   const FigureAxis* find_axis(const std::string& name) const;
 };
+
+/// The distinct renderers and GL versions of provenance.json, each as a name and a text. Empty without the
+/// file.
+std::vector<std::pair<std::string, std::string>> read_render_facts(const std::string& path);
 
 /// Reads study.json. Fails with kFile if the file cannot be read or is no study.
 Result<StudySpec> read_study_spec(const std::string& path);

@@ -87,7 +87,7 @@ DocumentTable configurations_table(const StudyData& data) {
 DocumentTable workloads_table(const StudyData& data) {
   const StudyTable& workloads = data.workloads;
   DocumentTable table{.name = "workloads", .caption = "Workloads"};
-  table.header = {"workload", "category", "state",        "frames",        "surfaces",     "size",   "format",
+  table.header = {"workload", "category", "state",        "frames",        "surfaces",     "surface",
                   "colours",  "entropy",  "pixel change", "colour change", "FVC coverage", "top 100"};
   table.text_columns = 3;
   std::vector<size_t> rows = data.ordered_workloads();
@@ -101,7 +101,7 @@ DocumentTable workloads_table(const StudyData& data) {
         {document_text(workloads.text(row, "workload")), document_text(workloads.text(row, "category")),
          document_text(reason.empty() ? status : status + ": " + reason),
          document_text(workloads.text(row, "frames")), document_text(workloads.text(row, "surfaces")),
-         document_text(size_of(workloads, row)), document_text(workloads.text(row, "format")),
+         document_text(size_of(workloads, row) + " " + workloads.text(row, "format")),
          document_number(workloads.number(row, "unique_colors")),
          document_number(workloads.number(row, "entropy")),
          document_share(workloads.number(row, "pixel_change")),
@@ -116,13 +116,16 @@ DocumentTable workloads_table(const StudyData& data) {
 DocumentTable system_table(const StudyData& data) {
   DocumentTable table{.name = "system", .caption = "System and workloads"};
   table.header = {"", "this study", "paper"};
+  table.text_columns = 3;
   std::set<std::string> sizes;
   for (const size_t row : data.ordered_workloads())
     if (const std::string size = size_of(data.workloads, row); !size.empty()) sizes.insert(size);
   table.rows.push_back(
-      {document_text("operating system"), document_text("Linux"), document_text("Android 4.2.2 (API 17)")});
+      {document_text("operating system"), document_text("–"), document_text("Android 4.2.2 (API 17)")});
   table.rows.push_back({document_text("display size"),
                         document_text(fmt::format("{}", fmt::join(sizes, ", "))), document_text("720×1280")});
+  for (const auto& [fact, text] : data.facts)
+    table.rows.push_back({document_text(fact), document_text(text), document_text("")});
   for (const std::string& category : data.categories()) {
     size_t count = 0;
     double frames = 0;

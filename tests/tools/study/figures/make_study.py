@@ -155,7 +155,7 @@ def write_study(folder, figures_toml, per_category=3, frames=40):
              "categories": [{"name": "UI", "title": "UI applications"}, {"name": "2D", "title": "2D applications"}, {"name": "3D", "title": "3D games"}],
              "axes": axes, "baseline": "vdcp", "figures": figures, "version": "0.1.0"}
     (folder / "study.json").write_text(json.dumps(study, indent=1) + "\n", encoding="utf-8")
-    (folder / "provenance.json").write_text(json.dumps({"workloads": []}) + "\n", encoding="utf-8")
+    (folder / "provenance.json").write_text(json.dumps({"workloads": [{"workload": "ui-app-0", "gl_renderer": "llvmpipe (LLVM 15.0.6, 256 bits)", "gl_version": "4.5 Mesa 22.3.6"}]}) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
