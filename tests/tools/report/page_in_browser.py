@@ -102,7 +102,8 @@ def browser():
     sys.exit("no chromium found: apt-get install chromium")
 
 
-def probe_page(page, folder, width):
+def probe_page(page, folder, width, script=PROBE_TAIL):
+    """Opens the page at this width and returns what the script saw."""
     text = page.read_text()
     expect(not re.search(r'(src|href)="(https?:)?//', text), "the page refers to the network")
     # Chromium's windows are at least 500 pixels wide; a narrower page has to be told.
@@ -110,7 +111,7 @@ def probe_page(page, folder, width):
     text = text.replace("<title>", PROBE_HEAD + narrow + "<title>", 1)
     head, tail = text.rsplit("</body>", 1)
     probed = folder / f"probed-{width}.html"
-    probed.write_text(head + PROBE_TAIL + "</body>" + tail)
+    probed.write_text(head + script + "</body>" + tail)
     environment = dict(os.environ, HOME=str(folder), XDG_RUNTIME_DIR=str(folder), DBUS_SESSION_BUS_ADDRESS="disabled:")
     environment.pop("LD_PRELOAD", None)
     for attempt in range(2):
