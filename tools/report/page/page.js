@@ -6,6 +6,7 @@
   const style = name => getComputedStyle(root).getPropertyValue(name).trim();
   const dashes = [[], [8, 3], [2, 3], [10, 3, 2, 3], [5, 2], [1, 2], [14, 4], [4, 4, 1, 4]];
   const wholeSteps = [0, 1, 2, 3, 4, 5, 6, 7, 8].flatMap(power => [1, 2, 5].map(digit => digit * 10 ** power));
+  const compact = new Intl.NumberFormat('en', {notation: 'compact'});
   const live = new Set();
 
   const element = (tag, attributes, ...children) => {
@@ -45,7 +46,7 @@
                y: {range: (u, low, high) => [plot.y_min, plot.y_max || (high > 0 ? plot.y_min + (high - plot.y_min) * 1.05 : 1)]}},
       axes: [{...axis, label: plot.x_unit, ...(plot.x_log ? {} : {incrs: wholeSteps}), labelSize: 20, size: 30, space: narrow ? 55 : 70,
               ...(plot.x_labels ? {splits: () => plot.x} : {}),
-              values: (u, ticks) => ticks.map(tick => tick == null || tick % 1 ? '' : String(xText(plot, tick)))},
+              values: (u, ticks) => ticks.map(tick => tick == null || tick % 1 ? '' : plot.x_log ? compact.format(tick) : String(xText(plot, tick)))},
              {...axis, label: plot.y_unit, labelSize: 20, size: 48}],
       series: [{label: plot.x_name, value: (u, value) => value == null ? '–' : plot.x_labels ? xText(plot, value) : shown(value)},
                ...plot.series.map((line, i) => ({

@@ -28,7 +28,7 @@ void join_default(const StudyData& data, const FigureAxis& axis, std::vector<Axi
   if (std::any_of(points.begin(), points.end(), same)) return;
   for (size_t row = 0; row < data.results.row_count(); ++row) {
     if (data.results.text(row, "configuration") != axis.scheme) continue;
-    const std::string value = data.results.text(row, axis.key);
+    const std::string value = data.key_text(row, axis.key);
     const bool known =
         value.empty() || std::any_of(points.begin(), points.end(),
                                      [&](const AxisPoint& point) { return point.value == value; });

@@ -110,7 +110,7 @@ constexpr ClaimRule kRules[] = {
     {"hdcp-2d", kHybrid, "mean rate of HDCP", kRate, 5.206, "2D", kMean, "rate_hmean", "hdcp"},
     {"hdcp-3d", kHybrid, "mean rate of HDCP", kRate, 3.23, "3D", kMean, "rate_hmean", "hdcp"},
     {"hybrid-share", kHybrid, "blocks that VDCP codes (as many as RAS)", kShare, 0.5, "all", kHybridShare, "",
-     "hdcp", "", "Blocks that are raw either way count as VDCP's."},
+     "hdcp", "", "Blocks that are raw either way are left out where the results count them."},
     {"vdcp-over-ras-ui", kConclusion, "gain of VDCP over RAS", kShare, 0.93, "UI", kGain, "rate_hmean",
      "vdcp", "ras", kRasRules},
     {"vdcp-over-red-ui", kConclusion, "gain of VDCP over RED", kShare, 0.89, "UI", kGain, "rate_hmean",

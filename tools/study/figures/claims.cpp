@@ -7,8 +7,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "counted.h"
 #include "study/figures/figure_makers.h"
+#include "study/figures/hybrid_blocks.h"
 #include "tilepress/cost_model.h"
+#include "tilepress/csv_table.h"
 
 namespace tilepress {
 namespace {
@@ -52,9 +55,24 @@ std::vector<double> result_values(const StudyData& data, const ClaimRule& rule, 
 
 std::vector<double> hybrid_values(const StudyData& data, const ClaimRule& rule) {
   return workload_values(data, rule.category, [&](const std::string& workload) {
-    const double vdcp = data.result(workload, rule.configuration, "vdcp_blocks");
-    return vdcp / (vdcp + data.result(workload, rule.configuration, "ras_blocks"));
+    const HybridBlocks blocks = hybrid_blocks(data, workload, rule.configuration);
+    return blocks.vdcp_only() / (blocks.vdcp_only() + blocks.ras_only());
   });
+}
+
+/// "2 of 3 workloads are shorter than the period." Empty if all are longer or the claim is about no period.
+std::string short_workloads(const StudyData& data, const ClaimRule& rule) {
+  constexpr std::string_view kPeriod = "period=";
+  const std::string_view configuration = rule.configuration;
+  const size_t at = configuration.find(kPeriod);
+  double period = 0;
+  if (at == std::string_view::npos || !read_csv(configuration.substr(at + kPeriod.size()), period)) return "";
+  const std::vector<size_t> rows = workloads_of(data, rule.category);
+  const auto is_short = [&](size_t row) { return data.workloads.number(row, "frames") <= period; };
+  const auto count = std::count_if(rows.begin(), rows.end(), is_short);
+  if (count == 0) return "";
+  return fmt::format("{} of {} have no more frames than the period.", count,
+                     counted(rows.size(), "workload"));
 }
 
 Claim claim_on_means(const StudyData& data, const ClaimRule& rule) {
@@ -63,6 +81,7 @@ Claim claim_on_means(const StudyData& data, const ClaimRule& rule) {
   const double workloads = data.mean(rule.category, rule.configuration, "workloads");
   Claim claim{rule, mean, std::isnan(workloads) ? 0 : static_cast<size_t>(workloads)};
   if (rule.source == ClaimSource::kRelative) claim.ours = mean / base;
+  if (rule.source == ClaimSource::kRelative) claim.reason = short_workloads(data, rule);
   if (rule.source == ClaimSource::kGain) claim.ours = mean / base - 1;
   if (rule.source == ClaimSource::kSaving) claim.ours = energy_saving(mean);
   return claim;
@@ -143,12 +162,14 @@ namespace {
 std::string deviation_text(double deviation) {
   constexpr double kRoundsToZero = 0.0005;
   if (!std::isfinite(deviation)) return "–";
-  return fmt::format("{:+.1f} %", std::abs(deviation) < kRoundsToZero ? 0 : deviation * 100);
+  if (std::abs(deviation) < kRoundsToZero) return "0.0 %";
+  return fmt::format("{:+.1f} %", deviation * 100);
 }
 
 std::string remark_of(const Claim& claim) {
   std::string out = claim.stands_for.empty() ? "" : "Here: " + claim.stands_for + ".";
-  if (claim.rule.note[0] != '\0') out += (out.empty() ? "" : " ") + std::string(claim.rule.note);
+  for (const std::string& text : {std::string(claim.rule.note), claim.reason})
+    if (!text.empty()) out += (out.empty() ? "" : " ") + text;
   return out;
 }
 
@@ -156,9 +177,9 @@ std::string remark_of(const Claim& claim) {
 
 DocumentTable claims_table(const std::vector<Claim>& claims) {
   DocumentTable table{.name = "claims", .caption = "What the paper states, and what this study measures"};
-  table.header = {"claim", "category", "paper", "this study", "deviation", "remark"};
+  table.header = {"claim", "category", "paper", "this study", "deviation", "workloads", "remark"};
   table.text_columns = 2;
-  table.wrapped = {0, 5};
+  table.wrapped = {0, 6};
   for (const Claim& claim : claims) {
     const auto value = [&](double number) {
       return DocumentCell{claim_value(number, claim.rule.unit), number_cell_text(number)};
@@ -168,10 +189,12 @@ DocumentTable claims_table(const std::vector<Claim>& claims) {
                           value(claim.rule.published),
                           value(claim.ours),
                           {deviation_text(claim.deviation()), number_cell_text(claim.deviation())},
+                          document_text(claim.workloads > 0 ? std::to_string(claim.workloads) : ""),
                           document_text(remark_of(claim))});
   }
   table.note =
-      "deviation = this study / paper − 1. The paper has 92 UI, 20 2D and 12 3D applications for Android. A "
+      "deviation = this study / paper − 1, for a gain that of 1 + gain. The paper has 92 UI, 20 2D and 12 3D "
+      "applications for Android. A "
       "claim about one application stands beside the workload of its category with the median entropy.";
   return table;
 }
@@ -187,7 +210,7 @@ std::string claims_csv(const std::vector<Claim>& claims) {
                           document_text(kUnits[static_cast<size_t>(rule.unit)].name),
                           document_exact(rule.published), document_exact(claim.ours),
                           document_exact(claim.deviation()), document_count(claim.workloads),
-                          document_text(claim.stands_for), document_text(rule.note)});
+                          document_text(claim.stands_for), document_text(remark_of(claim))});
   }
   return table.csv();
 }

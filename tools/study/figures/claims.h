@@ -31,7 +31,7 @@ enum class ClaimSource : uint8_t {
   kSaving,         ///< energy saved at the mean rate
   kLargest,        ///< largest value of a column of results.csv in the category
   kLowestCovered,  ///< lowest value among workloads with an FVC coverage of 0.7 or more
-  kHybridShare,    ///< mean over workloads of VDCP's share of the blocks
+  kHybridShare,    ///< mean over workloads of VDCP's share of the blocks that are not raw
   kCostModel,      ///< the cost model alone
 };
 
@@ -59,8 +59,12 @@ struct Claim {
   double ours;               ///< NaN: the study has nothing to compare
   size_t workloads;          ///< that the number comes from
   std::string stands_for{};  ///< the workload, for kStandIn
-  /// ours / published − 1.
-  double deviation() const { return ours / rule.published - 1; }
+  std::string reason{};      ///< why the numbers differ, as far as the study itself shows it
+  /// ours / published − 1. Gains are compared as ratios: (1 + ours) / (1 + published) − 1.
+  double deviation() const {
+    const double offset = rule.source == ClaimSource::kGain ? 1 : 0;
+    return (ours + offset) / (rule.published + offset) - 1;
+  }
 };
 
 std::vector<Claim> make_claims(const StudyData& data);

@@ -18,6 +18,8 @@ std::string unit_chart(const std::vector<Claim>& claims, ClaimUnit unit, double 
   ValueRange range;
   for (const Claim& claim : claims) {
     if (claim.rule.unit != unit || !std::isfinite(claim.ours)) continue;
+    // Gains follow from rates that the chart has.
+    if (claim.rule.source == ClaimSource::kGain) continue;
     const std::string category = claim.rule.category;
     const std::string label = category.empty() ? claim.rule.text : category + ": " + claim.rule.text;
     ChartRow row{label, claim.rule.section, {}};

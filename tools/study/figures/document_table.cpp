@@ -79,11 +79,15 @@ DocumentCell document_share(double share) {
   return {shown_percent(share), std::isfinite(share) ? csv_number(share) : ""};
 }
 
+bool DocumentTable::wraps(size_t column) const {
+  return std::find(wrapped.begin(), wrapped.end(), column) != wrapped.end();
+}
+
 std::string DocumentTable::markdown() const {
   std::string out = "**" + escape_markdown(caption) + "**\n\n|";
   for (const std::string& column : header) out += " " + escape_markdown(column) + " |";
   out += "\n|";
-  for (size_t i = 0; i < header.size(); ++i) out += i < text_columns ? " --- |" : " ---: |";
+  for (size_t i = 0; i < header.size(); ++i) out += i < text_columns || wraps(i) ? " --- |" : " ---: |";
   for (const auto& row : rows) {
     out += "\n|";
     for (const DocumentCell& cell : row) out += " " + escape_markdown(cell.shown) + " |";
@@ -100,8 +104,7 @@ std::string DocumentTable::latex() const {
   const std::string environment = wide ? "table*" : "table";
   std::string columns;
   for (size_t i = 0; i < header.size(); ++i) {
-    const bool wraps = std::find(wrapped.begin(), wrapped.end(), i) != wrapped.end();
-    columns += wraps ? "p{.3\\textwidth}" : i < text_columns ? "l" : "r";
+    columns += wraps(i) ? "p{.3\\textwidth}" : i < text_columns ? "l" : "r";
   }
   std::string out = fmt::format(
       "\\begin{{{}}}\n  \\centering\\small\n  \\caption{{{}}}\n  \\label{{tab:{}}}\n  "
@@ -153,7 +156,12 @@ Table DocumentTable::page_table() const {
   table.text_columns = text_columns;
   for (const auto& row : rows) {
     auto& cells = table.rows.emplace_back();
-    for (const DocumentCell& cell : row) cells.push_back({escape_html(cell.shown), cell.exact});
+    for (const DocumentCell& cell : row) {
+      const std::string text = escape_html(cell.shown);
+      cells.push_back(
+          {wraps(cells.size()) && !text.empty() ? "<span class=\"wrap\">" + text + "</span>" : text,
+           cell.exact});
+    }
   }
   return table;
 }

@@ -40,6 +40,7 @@ struct DocumentTable {
   std::string csv() const;
   /// For the report's pages.
   Table page_table() const;
+  bool wraps(size_t column) const;
 };
 
 }  // namespace tilepress

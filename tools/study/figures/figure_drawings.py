@@ -170,8 +170,11 @@ def draw_grouped_bars(drawing, group_column, groups, member_column, members, sty
         for x, row in places:
             value, low, high = (number(row[name]) for name in (about["y_column"], "minimum", "maximum"))
             axes.plot([x, x], [low, min(high, top)], color="0.35", linewidth=0.6, marker="" if high <= top else None, zorder=3)
-            axes.annotate(f"{value:.2f}" if value < 9.995 else f"{value:.1f}", (x, 0), (0, 2), textcoords="offset points", ha="center", va="bottom", fontsize=5.5,
-                          rotation=90 if len(groups) * len(members) > 12 else 0,
+            # The value stands in the bar's foot, or above everything else where the bar is too short for it.
+            stated = number(row["published"])
+            foot = 0 if value > 0.15 * top else max(value, min(high, top), 0 if math.isnan(stated) else stated)
+            axes.annotate(f"{value:.2f}" if value < 9.995 else f"{value:.1f}", (x, foot), (0, 2 if foot == 0 else 5), textcoords="offset points",
+                          ha="center", va="bottom", rotation=90 if len(groups) * len(members) > 12 else 0, fontsize=5.5,
                           bbox={"boxstyle": "square,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.85}, zorder=4)
             if row["published"]:
                 axes.scatter(x, number(row["published"]), **PUBLISHED)

@@ -39,6 +39,12 @@ std::optional<size_t> StudyData::mean_row(const std::string& category,
   return found == mean_rows_.end() ? std::nullopt : std::optional(found->second);
 }
 
+std::string StudyData::key_text(size_t row, const std::string& key) const {
+  const std::string& text = results.text(row, key);
+  // The registry's default: as many ways as the FVC has entries.
+  return key == "ways" && text == "fvc" ? "full" : text;
+}
+
 double StudyData::result(const std::string& workload, const std::string& configuration,
                          std::string_view column) const {
   return number_or_nan(results, result_row(workload, configuration), column);

@@ -26,6 +26,8 @@ class StudyData {
   std::optional<size_t> result_row(const std::string& workload, const std::string& configuration) const;
   /// Row of means.csv.
   std::optional<size_t> mean_row(const std::string& category, const std::string& configuration) const;
+  /// A key's value in a row of results.csv. The FVC's default associativity is "full".
+  std::string key_text(size_t row, const std::string& key) const;
   /// A number of these rows; NaN without the row.
   double result(const std::string& workload, const std::string& configuration, std::string_view column) const;
   double mean(const std::string& category, const std::string& configuration, std::string_view column) const;

@@ -37,6 +37,10 @@ void write_table(OutputFolder& folder, const DocumentTable& table, const std::st
 
 std::vector<Figure> make_figures(const StudyData& data, std::vector<std::string>& lines) {
   std::vector<Figure> figures;
+  if (data.ordered_workloads().empty()) {
+    lines.emplace_back("no workload has results: there are no figures");
+    return figures;
+  }
   for (const FigureSpec& spec : figure_specs(data)) {
     auto figure = make_figure(data, spec);
     if (figure)

@@ -28,9 +28,9 @@ std::string option_of(const StudyData& data, std::string_view name) {
 }
 
 /// The value of a key in the results of a configuration.
-std::string key_of(const StudyData& data, const std::string& configuration, std::string_view key) {
+std::string key_of(const StudyData& data, const std::string& configuration, const std::string& key) {
   for (size_t row = 0; row < data.results.row_count(); ++row)
-    if (data.results.text(row, "configuration") == configuration) return data.results.text(row, key);
+    if (data.results.text(row, "configuration") == configuration) return data.key_text(row, key);
   return "";
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "study/figures/figure_makers.h"
+#include "study/figures/hybrid_blocks.h"
 
 namespace tilepress {
 namespace {
@@ -33,17 +34,6 @@ void each_workload(const StudyData& data, const FigureSpec& spec, Visit visit) {
     if (shows_workload(spec, workload) && shows_category(spec, category)) visit(workload, category);
   }
 }
-
-/// Blocks of a hybrid. `vdcp` and `ras` count every block once; `raw` counts the blocks among them that stay
-/// raw, NaN in results of older versions.
-struct HybridBlocks {
-  double vdcp, ras, raw;
-  double all() const { return vdcp + ras; }
-  /// Raw blocks among those of VDCP. A block raw either way counts as VDCP's, unless the coverage threshold
-  /// switched VDCP off.
-  double raw_vdcp() const { return std::isnan(raw) ? 0 : std::min(raw, vdcp); }
-  double raw_ras() const { return std::isnan(raw) ? 0 : raw - raw_vdcp(); }
-};
 
 }  // namespace
 
@@ -102,13 +92,11 @@ Result<Figure> hybrid_shares(const StudyData& data, const FigureSpec& spec) {
                          "ras_share", "raw_share", "vdcp_only", "ras_only"};
   size_t order = 0;
   each_workload(data, spec, [&](const std::string& workload, const std::string& category) {
-    const auto count = [&](const char* column) { return data.result(workload, configuration, column); };
-    const HybridBlocks blocks{count("vdcp_blocks"), count("ras_blocks"), count("raw_blocks")};
+    const HybridBlocks blocks = hybrid_blocks(data, workload, configuration);
     if (!(blocks.all() > 0)) return;
     std::vector<std::string> row = {workload, category, std::to_string(++order),
                                     number_cell_text(blocks.all())};
-    for (const double part : {blocks.vdcp, blocks.ras, blocks.raw, blocks.vdcp - blocks.raw_vdcp(),
-                              blocks.ras - blocks.raw_ras()})
+    for (const double part : {blocks.vdcp, blocks.ras, blocks.raw, blocks.vdcp_only(), blocks.ras_only()})
       row.push_back(number_cell_text(part / blocks.all()));
     figure.table.rows.push_back(std::move(row));
   });
