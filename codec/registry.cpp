@@ -32,7 +32,7 @@ Result<void> register_scheme(const SchemeInfo& info) {
   };
   if (name.empty() || name.find_first_of(":,\" \n") != name.npos) return fail("not a name for a scheme");
   if (find_scheme(name) != nullptr) return fail("there is a scheme of this name already");
-  if (info.columns.size() > kOwnCounts) return fail("more than 4 columns");
+  if (info.columns.size() + info.added_columns.size() > kOwnCounts) return fail("more than 4 columns");
   schemes().push_back(info);
   return {};
 }

@@ -36,7 +36,8 @@ std::string rule_of(const SchemeKey& key) {
   const std::string high = key.high == kLargestNumber ? "" : " to " + std::to_string(key.high);
   switch (key.kind) {
     case KeyKind::kNumber:
-      return "a whole number from " + low + high;
+      return "a whole number from " + low + high +
+             (key.zero_word != nullptr ? std::string(" or ") + key.zero_word : "");
     case KeyKind::kPowerOfTwo:
       return "a power of two from " + low + high;
     case KeyKind::kShare:
@@ -98,6 +99,7 @@ Result<SchemeValue> parse_value(const SchemeKey& key, const std::string& text, S
     auto numbers = key.read_file(text);
     return numbers ? Result<SchemeValue>(std::move(*numbers)) : numbers.error();
   }
+  if (key.zero_word != nullptr && text == key.zero_word) return SchemeValue(0u);
   const auto number = parse_number(text, key.low, key.high);
   if (!number || (key.kind == KeyKind::kPowerOfTwo && !std::has_single_bit(*number))) return fault;
   return SchemeValue(*number);

@@ -45,7 +45,9 @@ void print_text() {
         std::printf("  %-9s %-23s %-8s %s\n", key.name, key.values().c_str(), key.default_value().c_str(),
                     key.summary);
   std::printf(
-      "\nWrite a scheme as name:key=value,key=value, for example -s vdcp:fvc=128,policy=2lfc\n");
+      "\nWrite a scheme as name:key=value,key=value, for example -s vdcp:fvc=128,policy=2lfc.\n"
+      "A value may be a list {a,b}. A range {A..B} doubles for fvc, ways and entries, and counts by one for\n"
+      "sample and period: -s 'vdcp:fvc={16..512}'\n");
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "dcp/ccd.h"
 #include "dcp/fvc_config.h"
+#include "tilepress/statistics.h"
 
 namespace tilepress {
 
@@ -12,7 +14,8 @@ struct CcdView {
   const Ccd* ccd = nullptr;  ///< null until the first FVC has filled a dictionary
   const uint16_t* indices =
       nullptr;  ///< of 64 pixels in traversal order; kNotInCcd where the CCD lacks the colour
-  const uint8_t* widths = nullptr;  ///< by sub-block: bit width of its largest index, or kRawWidth
+  const uint8_t* widths = nullptr;        ///< by sub-block: bit width of its largest index, or kRawWidth
+  std::optional<FvcFigures> collected{};  ///< after the frame: figures of the FVC, if it collected
 };
 
 /// The shared analysis of the DCP family.

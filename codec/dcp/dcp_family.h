@@ -26,6 +26,7 @@ class DcpFamilyEncoder : public BlockEncoder {
     ccd_ = view_->ccd;
     off_ = ccd_ != nullptr && ccd_->coverage < coverage_threshold_;
   }
+  std::optional<FvcFigures> fvc_figures() const override { return view_->collected; }
   /// The whole CCD as an rCCD, unless a scheme overrides both.
   uint64_t palette_bits() const override {
     return active() ? uint64_t{ccd_->entries} * (pixel_bits_ + 1) : 0;

@@ -11,6 +11,7 @@ inline constexpr SchemeKey kEntriesKey = {.name = "entries",
                                           .summary = "colours of the dictionary",
                                           .low = 2,
                                           .high = kMostColors,
-                                          .initial = 64};
+                                          .initial = 64,
+                                          .range = KeyRange::kDoubling};
 
 }  // namespace tilepress

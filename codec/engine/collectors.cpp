@@ -75,7 +75,17 @@ void Collectors::end_frame() {
 }
 
 FrameMetrics Collectors::metrics(const PixelPlane& plane, std::optional<uint64_t> changed) {
-  return with_metrics_ ? meter_.measure(plane, changed, collectors_.front()->fvc()) : FrameMetrics{};
+  if (!with_metrics_) return {};
+  // The collector of the default configuration collects every frame, before all others.
+  std::vector<const Fvc*> fvcs;
+  for (const Collector* collector : collecting_) fvcs.push_back(&collector->fvc());
+  const FrameMetrics metrics = meter_.measure(plane, changed, fvcs);
+  for (const auto& each : subscriptions_) {
+    const auto at = std::ranges::find(collecting_, each->collector) - collecting_.begin();
+    each->view.collected.reset();
+    if (due(*each)) each->view.collected = meter_.figures_of(static_cast<size_t>(at));
+  }
+  return metrics;
 }
 
 /// Returns a dictionary that no subscription has.
@@ -95,7 +105,9 @@ void Collectors::build_dictionaries() {
         fresh->build(collector->fvc());
       }
       each->dictionary = fresh;
-      each->view = {&fresh->ccd, fresh->indices.data(), fresh->widths.data()};
+      each->view.ccd = &fresh->ccd;
+      each->view.indices = fresh->indices.data();
+      each->view.widths = fresh->widths.data();
     }
   }
 }

@@ -42,7 +42,7 @@ class Collectors final : public CcdSource {
   }
   /// After the last pixel.
   void end_frame();
-  /// After end_frame(). Returns zeros without metrics.
+  /// After end_frame(). Returns zeros without metrics; with them, fills CcdView::collected.
   FrameMetrics metrics(const PixelPlane& plane, std::optional<uint64_t> changed);
   /// After end_frame(): builds the dictionaries for the next frames.
   void build_dictionaries();

@@ -102,6 +102,7 @@ void Lanes::end_frame() {
     scheme.blocks = blocks_;
     scheme.raw_bits = blocks_ * raw_block_bits_;
     scheme.csb_bits = blocks_ * lanes_[i].csb_bits;
+    scheme.fvc = lanes_[i].encoder->fvc_figures();
   }
 }
 

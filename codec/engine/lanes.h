@@ -31,6 +31,7 @@ class Lanes {
   void take_repeats(uint32_t place, uint32_t bx, uint32_t count, uint32_t by);
   /// Adds the figures of `repeats` blocks like the block kept at `place`.
   void settle(uint32_t place, uint64_t repeats);
+  /// After the last block and the frame metrics.
   void end_frame();
 
  private:

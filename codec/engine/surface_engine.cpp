@@ -158,9 +158,9 @@ void SurfaceEngine::State::repeat_block(uint32_t bx, uint32_t count, uint32_t by
 
 void SurfaceEngine::State::end_frame() {
   for (uint32_t place = 0; place < BlockRuns::kPlaces; ++place) settle_repeats(place);
-  lanes.end_frame();
   collectors.end_frame();
   out->metrics = collectors.metrics(source.plane(), source.changed());
+  lanes.end_frame();
   collectors.build_dictionaries();
   source.end_frame();
   ++ordinal;

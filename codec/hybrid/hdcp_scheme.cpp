@@ -46,8 +46,9 @@ class HdcpEncoder final : public DcpFamilyEncoder {
         csb.put((kRasMark + cls) * kEachOfHalf, kSubBlocks / 2 * kSubBlockCsbBits);
     ras_block_write(block, cls, classes_, format_, false, payload);
   }
-  void account(const BlockContext&, uint32_t, SchemeStatistics& statistics) const override {
+  void account(const BlockContext&, uint32_t payload_bits, SchemeStatistics& statistics) const override {
     ++statistics.own[choose().vdcp ? 0 : 1];
+    statistics.own[2] += payload_bits == raw_block_bits();
   }
 
  private:
@@ -108,7 +109,9 @@ class HdcpDecoder final : public DcpFamilyDecoder {
 
 }  // namespace
 
+/// A raw block is also a VDCP or a RAS block.
 constexpr const char* kColumns[] = {"vdcp_blocks", "ras_blocks"};
+constexpr const char* kAddedColumns[] = {"raw_blocks"};
 
 const SchemeInfo kHdcpInfo = {.name = "hdcp",
                               .label = "HDCP",
@@ -120,6 +123,7 @@ const SchemeInfo kHdcpInfo = {.name = "hdcp",
                               .keys = kDcpKeys,
                               .check = check_dcp_keys,
                               .columns = kColumns,
+                              .added_columns = kAddedColumns,
                               .has_dcp_structures = true};
 
 }  // namespace tilepress

@@ -228,10 +228,8 @@ void ColorDistribution::load_before(const ColorHistogram& colors) {
   });
 }
 
-ColorDistribution::Change ColorDistribution::count_groups(Tables& tables, const Grouped& now,
-                                                          const Grouped* before,
-                                                          std::span<const uint32_t> held_colors,
-                                                          CountProfile& profile) {
+uint64_t ColorDistribution::count_groups(Tables& tables, const Grouped& now, const Grouped* before,
+                                         std::span<ColorCount> wanted, CountProfile& profile) {
   /// Walks the groups of a frame.
   struct Cursor {
     const Grouped& frame;
@@ -244,31 +242,29 @@ ColorDistribution::Change ColorDistribution::count_groups(Tables& tables, const 
     }
   };
   Cursor now_cursor{now}, before_cursor{before != nullptr ? *before : now};
-  Change change;
-  auto held = held_colors.begin();
+  uint64_t gained = 0;
+  auto want = wanted.begin();
   for (uint32_t group = 0; group < kGroups; ++group) {
     const auto values_before = before != nullptr ? before_cursor.take(group) : Tables::Span{};
     const auto values = now_cursor.take(group);
     if (values.size == 0) continue;  // no colour gains here
-    change.gained += tables.count_group(values, values_before);
-    while (held != held_colors.end() && group_of(*held) < group) ++held;
-    for (; held != held_colors.end() && group_of(*held) == group; ++held)
-      change.held += tables.entries[value_of(*held)].count;
+    gained += tables.count_group(values, values_before);
+    while (want != wanted.end() && group_of(want->color) < group) ++want;
+    for (; want != wanted.end() && group_of(want->color) == group; ++want)
+      want->count = tables.entries[value_of(want->color)].count;
     tables.clear_group(values, values_before, profile);
   }
   tables.take_profile(profile);
-  if (before == nullptr) change.gained = 0;
-  return change;
+  return before != nullptr ? gained : 0;
 }
 
-ColorDistribution::Change ColorDistribution::count(const PixelPlane& frame, bool compare,
-                                                   std::span<uint32_t> held_colors, CountProfile& profile) {
+uint64_t ColorDistribution::count(const PixelPlane& frame, bool compare, std::span<ColorCount> wanted,
+                                  CountProfile& profile) {
   Tables& tables = tables_of_thread();
-  std::sort(held_colors.begin(), held_colors.end());
   distribute(frame, tables.next, spare_);
-  const Change change = count_groups(tables, spare_, compare ? &last_ : nullptr, held_colors, profile);
+  const uint64_t gained = count_groups(tables, spare_, compare ? &last_ : nullptr, wanted, profile);
   std::swap(last_, spare_);
-  return change;
+  return gained;
 }
 
 }  // namespace tilepress

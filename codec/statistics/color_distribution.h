@@ -10,6 +10,12 @@
 
 namespace tilepress {
 
+/// A colour and the pixels that have it.
+struct ColorCount {
+  uint32_t color;
+  uint32_t count = 0;
+};
+
 /// The upper 16 bits of a pixel word select its group; the lower 16 bits index a table of counts. Without a
 /// search, noise costs little more than shades. If neighbours are often alike, a run counts as one pixel with
 /// a weight. The object keeps the groups of the last frame.
@@ -18,15 +24,12 @@ namespace tilepress {
 /// megabyte that all surfaces of a thread share.
 class ColorDistribution {
  public:
-  struct Change {
-    uint64_t gained = 0;  ///< pixels that colours gained since the frame before; 0 without `compare`
-    uint64_t held = 0;    ///< pixels whose colour is one of `held_colors`
-  };
   /// Makes the frame before the frame in `colors` the last one.
   void load_before(const ColorHistogram& colors);
   /// Adds the counts of the colours of `frame` to `profile`, and makes `frame` the last one. `compare`
-  /// requires a last frame of as many pixels. `held_colors` are distinct; their order changes.
-  Change count(const PixelPlane& frame, bool compare, std::span<uint32_t> held_colors, CountProfile& profile);
+  /// requires a last frame of as many pixels. Counts the pixels of `wanted`, which are distinct and sorted,
+  /// of count 0. Returns how many pixels colours gained since the frame before; 0 without `compare`.
+  uint64_t count(const PixelPlane& frame, bool compare, std::span<ColorCount> wanted, CountProfile& profile);
 
  private:
   /// The lower halves of the words of a frame's pixels or runs, group after group.
@@ -42,8 +45,8 @@ class ColorDistribution {
   /// Notes the sizes of the groups in `out`, and replaces them in `ends` by the groups' beginnings.
   static void note_sizes(std::vector<uint32_t>& ends, Grouped& out);
   static void distribute(const PixelPlane& frame, std::vector<uint32_t>& ends, Grouped& out);
-  static Change count_groups(Tables& tables, const Grouped& now, const Grouped* before,
-                             std::span<const uint32_t> held_colors, CountProfile& profile);
+  static uint64_t count_groups(Tables& tables, const Grouped& now, const Grouped* before,
+                               std::span<ColorCount> wanted, CountProfile& profile);
 
   Grouped last_, spare_;
 };

@@ -22,6 +22,12 @@ size_t largest_table(size_t pixels) {
   return std::max<size_t>(1024, pixels * 8 / 3 / pixels_per_color(pixels));
 }
 
+template <typename Visit>
+void for_each_color(const Fvc& fvc, const Visit& visit) {
+  for (uint32_t slot = 0; slot < fvc.slots(); ++slot)
+    if (fvc.valid(slot)) visit(fvc.color(slot));
+}
+
 }  // namespace
 
 bool FrameMeter::take(uint32_t color, uint32_t count) {
@@ -69,33 +75,41 @@ void FrameMeter::see_block(const FewColors& few) {
   for (uint32_t n = 0; n < few.count; ++n) see_run(few.colors[n], bit_count(few.places[n]));
 }
 
-void FrameMeter::count_few(bool compare, const Fvc& fvc) {
-  for (uint32_t slot = 0; slot < fvc.slots(); ++slot)
-    if (fvc.valid(slot)) change_.held += counts_.count(fvc.color(slot));
+void FrameMeter::count_few(bool compare, std::span<const Fvc* const> fvcs) {
+  for (size_t i = 0; i < fvcs.size(); ++i)
+    for_each_color(*fvcs[i], [&](uint32_t color) { held_[i] += counts_.count(color); });
   counts_.end_frame([&](uint32_t count, uint32_t before) {
     profile_.add(count);
-    change_.gained += std::max(count, before) - before;
+    gained_ += std::max(count, before) - before;
   });
-  if (!compare) change_.gained = 0;
+  if (!compare) gained_ = 0;
 }
 
-void FrameMeter::count_many(const PixelPlane& frame, bool compare, const Fvc& fvc) {
+void FrameMeter::count_many(const PixelPlane& frame, bool compare, std::span<const Fvc* const> fvcs) {
   if (compare && hashed_) distribution_.load_before(counts_);
-  std::vector<uint32_t> held;
-  for (uint32_t slot = 0; slot < fvc.slots(); ++slot)
-    if (fvc.valid(slot)) held.push_back(fvc.color(slot));
-  change_ = distribution_.count(frame, compare, held, profile_);
+  std::vector<ColorCount> colors;
+  for (const Fvc* fvc : fvcs) for_each_color(*fvc, [&](uint32_t color) { colors.push_back({color}); });
+  std::ranges::sort(colors, {}, &ColorCount::color);
+  const auto same = [](const ColorCount& a, const ColorCount& b) { return a.color == b.color; };
+  colors.erase(std::unique(colors.begin(), colors.end(), same), colors.end());
+  gained_ = distribution_.count(frame, compare, colors, profile_);
+  for (size_t i = 0; i < fvcs.size(); ++i)
+    for_each_color(*fvcs[i], [&](uint32_t color) {
+      held_[i] += std::ranges::lower_bound(colors, color, {}, &ColorCount::color)->count;
+    });
 }
 
-FrameMetrics FrameMeter::measure(const PixelPlane& frame, std::optional<uint64_t> changed, const Fvc& fvc) {
+FrameMetrics FrameMeter::measure(const PixelPlane& frame, std::optional<uint64_t> changed,
+                                 std::span<const Fvc* const> fvcs) {
   const bool compare = changed.has_value();
   profile_.clear();
-  change_ = {};
+  gained_ = 0;
+  held_.assign(fvcs.size(), 0);
   const bool counted = flush() && counting_;
   if (counted)
-    count_few(compare, fvc);
+    count_few(compare, fvcs);
   else
-    count_many(frame, compare, fvc);
+    count_many(frame, compare, fvcs);
   hashed_ = counted;
   profile_.close();
   const size_t pixels = size_t{frame.width()} * frame.height();
@@ -121,13 +135,17 @@ FrameMetrics FrameMeter::measure(const PixelPlane& frame, std::optional<uint64_t
   // differences is the sum of the gains.
   if (compare) {
     metrics.pixel_change = share(*changed);
-    metrics.color_change = share(change_.gained);
+    metrics.color_change = share(gained_);
   }
-  uint64_t held_colors = 0;
-  for (uint32_t slot = 0; slot < fvc.slots(); ++slot) held_colors += fvc.valid(slot);
-  metrics.fvc_coverage = fvc.coverage();
-  metrics.fvc_relative_coverage =
-      static_cast<double>(change_.held) / static_cast<double>(profile_.most_frequent(held_colors));
+  figures_.clear();
+  for (size_t i = 0; i < fvcs.size(); ++i) {
+    uint64_t held_colors = 0;
+    for_each_color(*fvcs[i], [&](uint32_t) { ++held_colors; });
+    const auto most = static_cast<double>(profile_.most_frequent(held_colors));
+    figures_.push_back({fvcs[i]->coverage(), static_cast<double>(held_[i]) / most});
+  }
+  metrics.fvc_coverage = figures_.front().coverage;
+  metrics.fvc_relative_coverage = figures_.front().relative_coverage;
   metrics.top100_coverage = share(profile_.most_frequent(100));
   return metrics;
 }

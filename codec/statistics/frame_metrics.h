@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "dcp/fast_fvc.h"
 #include "pixels/few_colors.h"
@@ -31,15 +33,19 @@ class FrameMeter final : public ColorListener {
   void see_all(const uint32_t* pixels, uint32_t count);
   void see_block(const FewColors& few);
   /// Measures `frame` after the meter has seen it. `changed` counts the pixels that differ from the frame
-  /// measured last, of the same size; none if there is no such frame. `fvc` is the default FVC after `frame`.
-  FrameMetrics measure(const PixelPlane& frame, std::optional<uint64_t> changed, const Fvc& fvc);
+  /// measured last, of the same size; none if there is no such frame. `fvcs` are FVCs after `frame`, the
+  /// default one first; figures_of() has their figures then.
+  FrameMetrics measure(const PixelPlane& frame, std::optional<uint64_t> changed,
+                       std::span<const Fvc* const> fvcs);
+  /// The figures of `fvcs[i]`.
+  const FvcFigures& figures_of(size_t i) const { return figures_[i]; }
 
  private:
   /// Returns false if there is no room.
   bool take(uint32_t color, uint32_t count);
   bool flush();
-  void count_few(bool compare, const Fvc& fvc);
-  void count_many(const PixelPlane& frame, bool compare, const Fvc& fvc);
+  void count_few(bool compare, std::span<const Fvc* const> fvcs);
+  void count_many(const PixelPlane& frame, bool compare, std::span<const Fvc* const> fvcs);
 
   ColorHistogram counts_;
   /// A small cache of counts before the large table, since most colours come back soon.
@@ -52,7 +58,9 @@ class FrameMeter final : public ColorListener {
   bool many_ = false;      ///< the next frame probably has many colours
   ColorDistribution distribution_;
   CountProfile profile_;
-  ColorDistribution::Change change_;
+  uint64_t gained_ = 0;              ///< pixels that colours gained since the frame before
+  std::vector<uint64_t> held_;       ///< by FVC: pixels of the colours that it holds
+  std::vector<FvcFigures> figures_;  ///< by FVC
 };
 
 }  // namespace tilepress

@@ -14,6 +14,20 @@ using Frame = FrameStatistics;
     return row.path;       \
   }
 
+/// A figure of the scheme's FVC; empty if the frame has none.
+template <double FvcFigures::*figure>
+constexpr CsvColumn<SchemeRow> fvc_column(std::string_view name) {
+  return {name,
+          [](const SchemeRow& row, std::string& out) {
+            if (row.figures.fvc) append_csv(out, (*row.figures.fvc).*figure);
+          },
+          [](std::string_view field, SchemeRow& row) {
+            if (!row.figures.fvc) row.figures.fvc.emplace();
+            return read_csv(field, (*row.figures.fvc).*figure);
+          },
+          true};
+}
+
 constexpr CsvColumn<Frame> kFormatColumn = {
     "format", [](const Frame& frame, std::string& out) { out += traits(frame.format).name; },
     [](std::string_view field, Frame& frame) {
@@ -63,6 +77,8 @@ constexpr CsvColumn<SchemeRow> kSchemeCheckColumns[] = {
     csv_column<SchemeRow, TP_MEMBER(figures.mismatched_blocks)>("mismatched_blocks", true),
     csv_figure<SchemeRow, [](const SchemeRow& row) { return row.figures.rate_with_extra(); }>(
         "rate_with_extra"),
+    fvc_column<&FvcFigures::coverage>("fvc_coverage"),
+    fvc_column<&FvcFigures::relative_coverage>("fvc_relative_coverage"),
 };
 
 #undef TP_MEMBER
@@ -104,7 +120,10 @@ std::string schemes_csv_header() {
   append_csv_names(kSchemeColumns, header);
   for (const SchemeInfo& info : scheme_registry())
     for (const char* column : info.columns) (header += ',') += column;
-  return header += ',' + csv_header(kSchemeCheckColumns);
+  append_csv_names(kSchemeCheckColumns, header += ',');
+  for (const SchemeInfo& info : scheme_registry())
+    for (const char* column : info.added_columns) (header += ',') += column;
+  return header += '\n';
 }
 
 void append_frames_row(const FrameStatistics& frame, std::string& out) {
@@ -117,10 +136,15 @@ void append_schemes_rows(const FrameStatistics& frame, const std::vector<std::st
     const SchemeRow row{frame.frame, frame.surface, scheme_names[i], frame.warmup, frame.schemes[i]};
     append_csv_fields(kSchemeColumns, row, out);
     const std::string_view name = row.scheme.substr(0, row.scheme.find(':'));
-    for (const SchemeInfo& info : scheme_registry())
-      for (size_t column = 0; column < info.columns.size(); ++column)
+    const auto append_own = [&](const SchemeInfo& info, size_t first, size_t count) {
+      for (size_t column = first; column < first + count; ++column)
         append_csv(out += ',', name == info.name ? row.figures.own[column] : 0);
-    append_csv_row(kSchemeCheckColumns, row, out += ',');
+    };
+    for (const SchemeInfo& info : scheme_registry()) append_own(info, 0, info.columns.size());
+    append_csv_fields(kSchemeCheckColumns, row, out += ',');
+    for (const SchemeInfo& info : scheme_registry())
+      append_own(info, info.columns.size(), info.added_columns.size());
+    out += '\n';
   }
 }
 

@@ -33,24 +33,26 @@ class OwnColumns {
  public:
   explicit OwnColumns(const CsvRecords& records) : records_(records) {
     for (const SchemeInfo& info : scheme_registry())
-      for (const char* name : info.columns) places_.try_emplace(name, records.find(name));
+      for (const char* name : info.own_columns()) places_[info.name].emplace_back(name, records.find(name));
   }
   Result<void> read(SchemeRow& row) const {
-    const SchemeInfo* info = find_scheme(row.scheme.substr(0, row.scheme.find(':')));
-    for (size_t i = 0; info != nullptr && i < info->columns.size(); ++i) {
-      const auto place = places_.at(info->columns[i]);
+    const auto scheme = places_.find(row.scheme.substr(0, row.scheme.find(':')));
+    if (scheme == places_.end()) return {};
+    for (size_t i = 0; const auto& [name, place] : scheme->second) {
+      uint64_t& count = row.figures.own[i++];
       if (!place) continue;
       const std::string* field = records_.field(*place);
-      if (field == nullptr) return records_.fault(info->columns[i], "the field is missing");
-      if (!field->empty() && !read_csv(*field, row.figures.own[i]))
-        return records_.fault(info->columns[i], "cannot read '" + *field + "'");
+      if (field == nullptr) return records_.fault(name, "the field is missing");
+      if (!field->empty() && !read_csv(*field, count))
+        return records_.fault(name, "cannot read '" + *field + "'");
     }
     return {};
   }
 
  private:
   const CsvRecords& records_;
-  std::map<std::string_view, std::optional<size_t>> places_;
+  using Place = std::pair<const char*, std::optional<size_t>>;  ///< column, place in a record
+  std::map<std::string_view, std::vector<Place>> places_;       ///< by scheme name
 };
 
 Result<void> read_schemes(std::string_view text, RunRecord& out) {

@@ -137,16 +137,20 @@ Result<void> set_schemes(const RunOption& option, RunOptions& options, std::stri
   for (const auto& word : std::views::split(value, ' ')) {
     const std::string_view part(word.begin(), word.end());
     if (part.empty()) continue;
-    auto spec = parse_scheme(part);
-    if (!spec) {
-      Error error = spec.error();
+    auto specs = parse_schemes(part);
+    if (!specs) {
+      Error error = specs.error();
       // The parser names the scheme, and so does this error.
       const std::string subject = "scheme '" + std::string(part) + "': ";
       if (error.text.starts_with(subject)) error.text.erase(0, subject.size());
       return about(part, error);
     }
-    const auto same = [&](const SchemeSpec& known) { return known.text == spec->text; };
-    if (std::ranges::none_of(schemes, same)) schemes.push_back(std::move(*spec));
+    for (SchemeSpec& spec : *specs)
+      if (std::ranges::find(schemes, spec.text, &SchemeSpec::text) == schemes.end())
+        schemes.push_back(std::move(spec));
+    if (schemes.size() > kMostSchemes)
+      return about(part,
+                   {ErrorKind::kBadValue, "more than " + std::to_string(kMostSchemes) + " configurations"});
   }
   if (schemes.empty()) return refuse(option, value);
   options.schemes = std::move(schemes);
@@ -188,7 +192,7 @@ constexpr RunOption kOptions[] = {
      .text = {set_schemes, print_schemes},
      .json = {JsonForm::kList, "schemes"}, .rows = RowsEffect::kValue,
      .flags = "-s,--scheme", .metavar = "SPEC", .joint = ' ',
-     .help = "Scheme as name:key=value,... ; repeat for more (default: all seven; see tilepress schemes)"},
+     .help = "Scheme as name:key=value,key={a,b},... ; repeat for more (default: all seven; see tilepress schemes)"},
     {.name = "tile", .variable = "TILEPRESS_TILE", .range = "a multiple of 8 in 8..4096",
      .text = kCount<TP_MEMBER(model.tile_side), 8, 4096, whole_blocks>,
      .json = {JsonForm::kNumber, "tile"}, .rows = RowsEffect::kAssigned,

@@ -108,6 +108,7 @@ TEST(Csv, EachColumnReadsBackWhatItPrinted) {
   row.figures.extra_bits = 3;
   row.figures.checked_blocks = 4;
   row.figures.mismatched_blocks = 5;
+  row.figures.fvc = {0.75, 1.0 / 3};
   expect_to_read_back(scheme_columns(), row);
   expect_to_read_back(scheme_check_columns(), row);
 }

@@ -1,5 +1,5 @@
-// Fuzz target for the scheme parser: any text gives a specification in its ranges, or one line that names the
-// fault.
+// Fuzz target for the scheme parser: any text gives specifications in their ranges, or one line that names
+// the fault.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -9,7 +9,12 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
   using namespace tilepress;
   const std::string_view text(reinterpret_cast<const char*>(bytes), size);
-  const auto spec = parse_scheme(text, SchemeFiles::kLeave);  // opens no file
+  if (text.find("file=") == text.npos) {  // opens no file
+    const auto specs = parse_schemes(text);
+    if (!specs && specs.error().text.find("scheme '") != 0) __builtin_trap();
+    if (specs && (specs->empty() || specs->size() > kMostSchemes)) __builtin_trap();
+  }
+  const auto spec = parse_scheme(text, SchemeFiles::kLeave);
   if (!spec) {
     if (spec.error().text.find("scheme '") != 0) __builtin_trap();
     return 0;

@@ -131,6 +131,86 @@ TEST(SchemeSpec, ErrorsNameTheFault) {
   }
 }
 
+namespace {
+
+/// The names that a text with lists stands for, each followed by a space; or the error.
+std::string names_of(const std::string& text) {
+  const auto specs = parse_schemes(text);
+  if (!specs) return specs.error().text;
+  std::string names;
+  for (const SchemeSpec& spec : *specs) {
+    EXPECT_EQ(parse_scheme(spec.text)->values, spec.values) << spec.text;
+    names += spec.text + " ";
+  }
+  return names;
+}
+
+}  // namespace
+
+TEST(SchemeSpec, AListStandsForTheSpecificationsTypedOneByOne) {
+  EXPECT_EQ(names_of("vdcp"), "vdcp ");
+  EXPECT_EQ(names_of("vdcp:fvc=16"), "vdcp:fvc=16 ");
+  EXPECT_EQ(names_of("vdcp:fvc={16,64,32}"), "vdcp:fvc=16 vdcp:fvc=64 vdcp:fvc=32 ");
+  EXPECT_EQ(names_of("vdcp:policy={lru,random},coverage=0.5"),
+            "vdcp:policy=lru,coverage=0.5 vdcp:policy=random,coverage=0.5 ");
+  EXPECT_EQ(names_of("ras:ycocg={0,1}"), "ras:ycocg=0 ras:ycocg=1 ");
+  EXPECT_EQ(names_of("vdcp:fvc={16}"), "vdcp:fvc=16 ");
+}
+
+TEST(SchemeSpec, SeveralListsMultiplyAndTheLastKeyVariesFastest) {
+  EXPECT_EQ(names_of("dcp:fvc={16,32},sample={1,4}"),
+            "dcp:fvc=16,sample=1 dcp:fvc=16,sample=4 dcp:fvc=32,sample=1 dcp:fvc=32,sample=4 ");
+}
+
+TEST(SchemeSpec, EqualNamesOfAListAppearOnce) {
+  EXPECT_EQ(names_of("dcp:fvc={16,32,16}"), "dcp:fvc=16 dcp:fvc=32 ");
+}
+
+TEST(SchemeSpec, RangesDoubleForSizesAndCountForSamplingAndPeriods) {
+  EXPECT_EQ(names_of("dcp:fvc={16..128}"), "dcp:fvc=16 dcp:fvc=32 dcp:fvc=64 dcp:fvc=128 ");
+  EXPECT_EQ(names_of("dcp:fvc={512..1023}"), "dcp:fvc=512 ");
+  EXPECT_EQ(names_of("dcp:ways={1..4}"), "dcp:ways=1 dcp:ways=2 dcp:ways=4 ");
+  EXPECT_EQ(names_of("fbc:entries={2..4}"), "fbc:entries=2 fbc:entries=4 ");
+  EXPECT_EQ(names_of("dcp:sample={3..5}"), "dcp:sample=3 dcp:sample=4 dcp:sample=5 ");
+  EXPECT_EQ(names_of("dcp:period={9..9}"), "dcp:period=9 ");
+}
+
+TEST(SchemeSpec, FullWaysMeanFullyAssociative) {
+  EXPECT_EQ(fvc_config(good("dcp:ways=full")), fvc_config(good("dcp")));
+  EXPECT_EQ(names_of("dcp:ways={32,full}"), "dcp:ways=32 dcp:ways=full ");
+}
+
+TEST(SchemeSpec, ErrorsOfListsNameTheFault) {
+  const std::pair<const char*, const char*> faults[] = {
+      {"vdcp:fvc={}", "fvc: a value of the list is empty"},
+      {"vdcp:fvc={16,}", "fvc: a value of the list is empty"},
+      {"vdcp:fvc={16,,32}", "fvc: a value of the list is empty"},
+      {"vdcp:fvc={16", "fvc: '{' without '}'; a list has no spaces"},
+      {"vdcp:fvc={16,{32}}", "fvc: a list inside a list"},
+      {"vdcp:fvc={16}32", "fvc: text after '}'"},
+      {"vdcp:fvc={16,48}", "scheme 'vdcp:fvc=48': fvc=48: must be a power of two"},
+      {"vdcp:fvc={64..16}", "fvc: the range is reversed"},
+      {"vdcp:fvc={16..}", "fvc: a range is {A..B}"},
+      {"vdcp:ways={0..4}", "ways: a range is {A..B} with whole numbers from 1 on"},
+      {"vdcp:policy={lfc..lru}", "policy: takes a list such as {a,b}, no range"},
+      {"vdcp:coverage={0..1}", "coverage: takes a list such as {a,b}, no range"},
+      {"vdcp:fvc={16,32},", "nothing after the last ','"},
+      {"vdcp:{16,32}", "'{16' is not key=value"},
+      {"vdcp:size={16,32}", "unknown key 'size'"},
+      {"{vdcp,dcp}:fvc=16", "unknown scheme '{vdcp,dcp}'"},
+      {"palette:file={a,b}", "file={a: no such file"},
+      {"vdcp:sample={1..257}", "more than 256 configurations"},
+      {"vdcp:sample={1..4294967295}", "more than 256 configurations"},
+      {"vdcp:sample={1..16},period={1..17}", "more than 256 configurations"},
+  };
+  for (const auto& [text, named] : faults) {
+    const std::string error = names_of(text);
+    EXPECT_NE(error.find(named), std::string::npos) << text << " gives: " << error;
+    EXPECT_EQ(error.find("scheme '"), 0u) << error;
+  }
+  EXPECT_EQ(parse_schemes("vdcp:sample={1..256}")->size(), 256u);
+}
+
 TEST(SchemeSpec, TheDefaultIsThePapersSevenInTheirOrder) {
   std::string names;
   for (const SchemeSpec& spec : default_schemes()) names += spec.text + " ";

@@ -131,6 +131,37 @@ TEST(Engine, CountsTheBlocksOfEachHalfOfTheHybrid) {
   const SchemeStatistics& second = surface.scheme(picture);
   EXPECT_EQ(second.own[0], 1u);
   EXPECT_EQ(second.own[1], 1u);
+  EXPECT_EQ(second.own[2], 0u);
+  uint32_t state = 1;
+  for (uint32_t y = 0; y < 8; ++y)
+    for (uint32_t x = 8; x < 16; ++x) picture.words[16 * y + x] = state = state * 1664525 + 1013904223;
+  const SchemeStatistics& third = surface.scheme(picture);  // noise is raw in both; VDCP wins the tie
+  EXPECT_EQ(third.own[0], 2u);
+  EXPECT_EQ(third.own[2], 1u);
+}
+
+TEST(Engine, TellsTheFiguresOfEachFvcInTheFramesThatItCollected) {
+  ModelOptions options;
+  options.frame_metrics = true;
+  SurfaceEngine engine({*parse_scheme("vdcp:fvc=2,period=2"), *parse_scheme("dcp"), *parse_scheme("ras")},
+                       options);
+  // 96 pixels of A, 24 of B, 8 of C. C comes last and takes the entry of B, so that two entries hold A and C.
+  Picture picture = solid(16, 8, A);
+  for (uint32_t i = 0; i < 24; ++i) picture.words[16 * (i / 8) + 8 + i % 8] = B;
+  for (uint32_t i = 0; i < 8; ++i) picture.words[16 * 7 + 8 + i] = C;
+  FrameStatistics frame;
+  for (const bool collects : {true, false, true}) {
+    engine.process(patterns::in_memory(picture).view(), frame);
+    ASSERT_EQ(frame.schemes[0].fvc.has_value(), collects);
+    if (collects) {
+      EXPECT_EQ(frame.schemes[0].fvc->coverage, 104.0 / 128);
+      EXPECT_EQ(frame.schemes[0].fvc->relative_coverage, 104.0 / 120);
+    }
+    ASSERT_TRUE(frame.schemes[1].fvc.has_value());
+    EXPECT_EQ(frame.schemes[1].fvc->coverage, 1.0);
+    EXPECT_EQ(frame.schemes[1].fvc->relative_coverage, 1.0);
+    EXPECT_FALSE(frame.schemes[2].fvc.has_value());
+  }
 }
 
 TEST(Engine, SixteenBitSurfacesCountSixteenBitPixels) {

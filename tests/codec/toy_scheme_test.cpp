@@ -63,13 +63,13 @@ TEST(ToyScheme, HasAColumnThatIsZeroForOtherSchemes) {
   EXPECT_NE(schemes_csv_header().find(",vdcp_blocks,ras_blocks,toy_rows,checked_blocks,"), std::string::npos);
   FrameStatistics frame;
   frame.schemes.resize(2);
-  frame.schemes[0].own = {3, 4};
+  frame.schemes[0].own = {3, 4, 2};
   frame.schemes[1].own = {15};
   std::string rows;
   append_schemes_rows(frame, {"hdcp", "toy:rows=8"}, rows);
   EXPECT_EQ(rows,
-            "0,0,hdcp,0,0,0,0,0,0,0,0,0,0,3,4,0,0,0,0\n"
-            "0,0,toy:rows=8,0,0,0,0,0,0,0,0,0,0,0,0,15,0,0,0\n");
+            "0,0,hdcp,0,0,0,0,0,0,0,0,0,0,3,4,0,0,0,0,,,2\n"
+            "0,0,toy:rows=8,0,0,0,0,0,0,0,0,0,0,0,0,15,0,0,0,,,0\n");
 }
 
 TEST(ToyScheme, IsRefusedASecondTimeAndUnderANameThatNoOptionCanHold) {

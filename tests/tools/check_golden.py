@@ -11,6 +11,7 @@ from collections import defaultdict
 
 INTEGERS = ("payload_bits", "bursts", "csb_bits", "palette_bits")
 RATIOS = ("entropy", "pixel_change", "color_change", "fvc_coverage", "fvc_relative_coverage", "top100_coverage")
+FVC_RATIOS = ("fvc_coverage", "fvc_relative_coverage")
 CALL_OPTIONS = ("tile", "burst")
 
 
@@ -42,10 +43,14 @@ def main():
     command, golden = sys.argv[1:3]
     only = sys.argv[3:]
     calls = defaultdict(dict)  # (set, call options) -> {(scheme text, frame): expected row}
+    coverages = defaultdict(dict)  # (set, call options) -> {(scheme text, frame): expected row}
     compared = 0
     for row in read_rows(os.path.join(golden, "expected.csv")):
         call, keys = split_options(row["options"])
         calls[row["set"], call].setdefault((scheme_text(row["scheme"], keys), row["frame"]), []).append(row)
+    for row in read_rows(os.path.join(golden, "fvc.csv")):
+        call, keys = split_options(row["options"])
+        coverages[row["set"], call][scheme_text("vdcp", keys), row["frame"]] = row
     metrics = {(row["set"], row["frame"]): row for row in read_rows(os.path.join(golden, "metrics.csv"))}
 
     faults = []
@@ -68,6 +73,15 @@ def main():
                     if key not in got or got[key][column] != row[column]:
                         faults.append(f"{name} {' '.join(call)} {key}: {column} is "
                                       f"{got.get(key, {}).get(column)}, not {row[column]}")
+        for key, row in got.items():
+            wanted = coverages[name, call].get(key)
+            if key[0].split(":")[0] != "vdcp" and wanted is None:
+                continue
+            compared += 1
+            for column in FVC_RATIOS:
+                shown = row[column] and f"{float(row[column]):.6f}"
+                if shown != (wanted[column] if wanted else ""):
+                    faults.append(f"{name} {' '.join(call)} {key}: {column} is {row[column]}, expected {wanted}")
         # The tile decides the traversal, and with it what the metrics' FVC holds: the table has the default tile's.
         for row in frames if "--tile" not in call else []:
             wanted = metrics[name, row["frame"]]

@@ -18,12 +18,15 @@ const SchemeInfo* coder_of(std::string_view column) {
   return find_scheme(column.substr(0, column.size() - kEnding.size()));
 }
 
+uint64_t sum_of_columns(const SchemeInfo& info, const OwnCounts& own) {
+  return std::accumulate(own.begin(), own.begin() + static_cast<ptrdiff_t>(info.columns.size()), uint64_t{0});
+}
+
 /// The counts of the run's first configuration of the scheme; null without any.
 const OwnCounts* counts_of(const RunSummary& run, const SchemeInfo& info) {
   for (size_t i = 0; i < run.schemes.size(); ++i) {
     const OwnCounts& own = run.totals[i].own;
-    if (scheme_info(run.schemes[i]) == &info && std::accumulate(own.begin(), own.end(), uint64_t{0}) > 0)
-      return &own;
+    if (scheme_info(run.schemes[i]) == &info && sum_of_columns(info, own) > 0) return &own;
   }
   return nullptr;
 }
@@ -64,7 +67,7 @@ Section own_columns_section(const Batch& batch, const SchemeInfo& info) {
     const OwnCounts* own = counts_of(run, info);
     if (own == nullptr) continue;
     std::vector<Cell> cells = {text_cell(run.name), text_cell(run.category)};
-    const auto sum = static_cast<double>(std::accumulate(own->begin(), own->end(), uint64_t{0}));
+    const auto sum = static_cast<double>(sum_of_columns(info, *own));
     std::vector<double> shares;
     for (size_t i = 0; i < info.columns.size(); ++i) {
       cells.push_back(count_cell((*own)[i]));

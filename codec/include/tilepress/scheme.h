@@ -4,8 +4,10 @@
 #include <array>
 #include <cassert>
 #include <cstdint>
+#include <cstring>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,7 +31,12 @@ struct BlockContext {
   /// Returns the pixels in raster order.
   Block raster() const {
     Block block;
-    for (uint32_t i = 0; i < kBlockPixels; ++i) block.pixels[kTraversal[i]] = pixels[i];
+    for (uint32_t sub = 0; sub < kSubBlocks; ++sub) {
+      const uint32_t* from = pixels + kSubBlockPixels * sub;
+      uint32_t* to = &block.pixels[kTraversal[kSubBlockPixels * sub]];
+      std::memcpy(to, from, 2 * sizeof(uint32_t));
+      std::memcpy(to + kBlockSide, from + 2, 2 * sizeof(uint32_t));
+    }
     return block;
   }
 };
@@ -86,6 +93,8 @@ class BlockEncoder {
   }
   /// Adds what goes beyond the common columns for a block whose payload has `payload_bits`.
   virtual void account(const BlockContext&, uint32_t /*payload_bits*/, SchemeStatistics&) const {}
+  /// After the last block: the figures of the scheme's FVC, if it has one that collected this frame.
+  virtual std::optional<FvcFigures> fvc_figures() const { return std::nullopt; }
 };
 
 /// Decoder side: restores blocks from tables, CSB and payload alone. Hostile bits return false, never
@@ -114,6 +123,9 @@ enum class KeyKind : uint8_t {
   kFile,        ///< the path of a file that `read_file` reads; there is no default
 };
 
+/// How a range {A..B} of values steps from A to B.
+enum class KeyRange : uint8_t { kNone, kDoubling, kCounting };
+
 constexpr uint32_t kLargestNumber = 0x7FFFFFFF;
 
 /// One key of a scheme: how to parse it, and what help prints about it.
@@ -127,6 +139,8 @@ struct SchemeKey {
   Result<std::vector<uint32_t>> (*read_file)(const std::string& path) = nullptr;
   const char* help_values = nullptr;   ///< replaces values()
   const char* help_initial = nullptr;  ///< replaces default_value()
+  const char* zero_word = nullptr;     ///< a word that stands for the value 0
+  KeyRange range = KeyRange::kNone;
 
   /// The values and the default as help prints them, such as "2, 4, 8 ... 1024".
   std::string values() const;
@@ -145,9 +159,16 @@ struct SchemeInfo {
   std::span<const SchemeKey> keys = {};
   /// Checks rules between keys. `given` lists the keys that the text names. Null: no such rules.
   Result<void> (*check)(const SchemeSpec& spec, std::span<const std::string_view> given) = nullptr;
-  /// CSV columns of the scheme's own, at most kOwnCounts; account() adds to SchemeStatistics::own in this
-  /// order.
+  /// CSV columns of the scheme's own, at most kOwnCounts together; account() adds to SchemeStatistics::own in
+  /// this order. The added columns are the later ones: they stand at the end of a row.
   std::span<const char* const> columns = {};
+  std::span<const char* const> added_columns = {};
+  /// Both, in the order of SchemeStatistics::own.
+  std::vector<const char*> own_columns() const {
+    std::vector<const char*> all(columns.begin(), columns.end());
+    all.insert(all.end(), added_columns.begin(), added_columns.end());
+    return all;
+  }
   bool has_dcp_structures = false;  ///< FVC, CCD and rCCD, whose energy the paper states
   bool needs_frame_before = false;  ///< a frame's bits alone do not restore it: use decode_at
 };

@@ -1,4 +1,5 @@
-// Scheme specifications: `name:key=value,key=value`, parsed and checked against the scheme's key table.
+// Scheme specifications: `name:key=value,key=value`, parsed and checked against the scheme's key table. A
+// value may be a list in braces, which stands for several specifications (spec §13).
 #pragma once
 
 #include <cstdint>
@@ -39,6 +40,14 @@ enum class SchemeFiles : uint8_t { kRead, kLeave };
 
 /// Parses one specification.
 Result<SchemeSpec> parse_scheme(std::string_view text, SchemeFiles files = SchemeFiles::kRead);
+
+/// The most configurations that one call may name.
+constexpr size_t kMostSchemes = 256;
+
+/// Parses a specification whose values may be lists: `fvc={16,32}`, or a range `fvc={16..512}` for a key with
+/// a KeyRange. Several lists multiply; the last key varies fastest. Each result is named as if typed alone;
+/// equal names appear once. Error: kBadValue, also for more than kMostSchemes.
+Result<std::vector<SchemeSpec>> parse_schemes(std::string_view text);
 
 /// The seven schemes of the paper, in the order of spec §12.
 std::vector<SchemeSpec> default_schemes();

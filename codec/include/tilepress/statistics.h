@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "tilepress/pixel_format.h"
@@ -18,6 +19,12 @@ struct FrameMetrics {
   double fvc_coverage = 0;           ///< 0..1, of the default FVC
   double fvc_relative_coverage = 0;  ///< 0..1
   double top100_coverage = 0;        ///< 0..1
+};
+
+/// How well an FVC knows the frame that it collected (spec §3).
+struct FvcFigures {
+  double coverage = 0;           ///< 0..1: counts it holds / pixels that entered
+  double relative_coverage = 0;  ///< 0..1: pixels of its colours / pixels of as many most frequent colours
 };
 
 constexpr size_t kOwnCounts = 4;
@@ -36,6 +43,8 @@ struct SchemeStatistics {
   OwnCounts own{};              ///< what SchemeInfo::columns names
   uint64_t checked_blocks = 0;  ///< --verify: blocks encoded, decoded and compared
   uint64_t mismatched_blocks = 0;
+  /// Of one frame in which the scheme's FVC collected and frame metrics were on; sums have none.
+  std::optional<FvcFigures> fvc{};
 
   uint64_t moved_bits() const { return bursts * burst_bits + csb_bits + palette_bits; }
   /// raw / (payload + CSB): the paper's first comparison, no bursts.

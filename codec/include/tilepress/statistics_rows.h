@@ -23,7 +23,8 @@ struct SchemeRow {
 
 /// The columns of frames.csv.
 std::span<const CsvColumn<FrameStatistics>> frame_columns();
-/// The columns of schemes.csv: these, then the SchemeInfo::columns of the registry, then those of the checks.
+/// The columns of schemes.csv: these, then the SchemeInfo::columns of the registry, then those of the
+/// checks, then the added columns of the registry.
 std::span<const CsvColumn<SchemeRow>> scheme_columns();
 std::span<const CsvColumn<SchemeRow>> scheme_check_columns();
 

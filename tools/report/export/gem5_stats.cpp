@@ -49,9 +49,9 @@ class Dump {
          "Ratio");
     const SchemeInfo* info = scheme_info(scheme);
     if (info == nullptr || sizes.own == OwnCounts{}) return;
-    for (size_t i = 0; i < info->columns.size(); ++i)
-      count(group + camel_case(info->columns[i]), sizes.own[i],
-            fmt::format("Column {} of schemes.csv", info->columns[i]).c_str(), "Count");
+    for (size_t i = 0; const char* column : info->own_columns())
+      count(group + camel_case(column), sizes.own[i++],
+            fmt::format("Column {} of schemes.csv", column).c_str(), "Count");
   }
   std::string end() const { return text_ + kEnd; }
 
