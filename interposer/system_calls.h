@@ -56,6 +56,11 @@ inline uint64_t clock_ns(clockid_t clock) {
   return static_cast<uint64_t>(now.tv_sec) * 1000000000u + static_cast<uint64_t>(now.tv_nsec);
 }
 
+/// Nanoseconds that never run backwards.
+inline uint64_t now_ns() {
+  return clock_ns(CLOCK_MONOTONIC);
+}
+
 }  // namespace tilepress
 #else
 static inline long tp_system_call(long number, long a, long b, long c, long d) {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "interposer/engine/monotonic_clock.h"
+#include "interposer/system_calls.h"
 #include "tilepress/simd.h"
 
 namespace tilepress {

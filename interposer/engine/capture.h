@@ -2,19 +2,18 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
 
 #include "interposer/engine/frame_taker.h"
-#include "interposer/engine/present_times.h"
 #include "interposer/engine/read_policy.h"
 #include "interposer/engine/run_start.h"
 #include "interposer/engine/shim_log.h"
 #include "interposer/engine/source_list.h"
 #include "interposer/engine/surface_registry.h"
 #include "interposer/engine/target_capture.h"
+#include "interposer/engine/worker/run_tables.h"
 #include "tilepress/run_options.h"
 
 namespace tilepress {

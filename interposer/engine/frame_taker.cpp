@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "interposer/engine/monotonic_clock.h"
+#include "interposer/system_calls.h"
 
 namespace tilepress {
 namespace {

@@ -1,7 +1,80 @@
-// Read policy: the kind of window decides first, then the user's option, then the probe.
+// Read policy: the kind of window decides first, then the user's option, then the probe. The probe compares
+// medians, because single frames wait for other things too.
 #include "interposer/engine/read_policy.h"
 
+#include <algorithm>
+#include <cstdio>
+
 namespace tilepress {
+
+static uint64_t median(std::vector<uint64_t> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+ReadWay ReadbackProbe::next() const {
+  switch (state_) {
+    case State::kBoth:
+      return ReadWay::kBoth;
+    case State::kTrial:
+    case State::kChosenAsync:
+      return ReadWay::kAsync;
+    default:
+      return ReadWay::kSync;
+  }
+}
+
+bool ReadbackProbe::settle(State state) {
+  state_ = state;
+  passed_over_ = 0;
+  return state == State::kChosenSync || state == State::kChosenAsync;
+}
+
+bool ReadbackProbe::pays(const std::vector<uint64_t>& buffered_ns) const {
+  const uint64_t sync = median(sync_ns_), buffered = median(buffered_ns);
+  return buffered * kFactor <= sync && buffered + kMarginNs <= sync;
+}
+
+bool ReadbackProbe::note(ReadWay way, uint64_t cost_ns, uint64_t buffered_cost_ns) {
+  if (state_ == State::kChosenSync || state_ == State::kChosenAsync) return false;
+  // The source took another way than it was given: there is no choice.
+  if (way != next() || (way == ReadWay::kBoth && buffered_cost_ns == 0)) return settle(State::kChosenSync);
+  switch (state_) {
+    case State::kSync:
+      if (++passed_over_ <= kWarmUp) return false;
+      sync_ns_.push_back(cost_ns);
+      return sync_ns_.size() == kSamples && settle(State::kBoth);
+    case State::kBoth:
+      if (++passed_over_ == 1) return false;  // the first one makes the buffer, and may compile something
+      buffered_ns_.push_back(buffered_cost_ns);
+      if (buffered_ns_.size() < kSamples) return false;
+      return settle(pays(buffered_ns_) ? State::kTrial : State::kChosenSync);
+    case State::kTrial:
+      if (++passed_over_ == 1) return false;  // the first one makes the twin context
+      trial_ns_.push_back(cost_ns);
+      if (trial_ns_.size() < kSamples) return false;
+      return settle(pays(trial_ns_) ? State::kChosenAsync : State::kChosenSync);
+    default:
+      return false;
+  }
+}
+
+std::string ReadbackProbe::text() const {
+  const bool async = state_ == State::kChosenAsync || state_ == State::kTrial;
+  char line[160];
+  const auto ms = [](uint64_t ns) { return static_cast<double>(ns) / 1e6; };
+  if (buffered_ns_.empty()) return "pixel buffers cannot be used: synchronous reads";
+  if (trial_ns_.empty())
+    snprintf(line, sizeof line, "synchronous reads %.3f ms, into pixel buffers %.3f ms: %s",
+             ms(median(sync_ns_)), ms(median(buffered_ns_)), async ? "asynchronous" : "synchronous");
+  else
+    snprintf(line, sizeof line, "synchronous reads %.3f ms, into pixel buffers %.3f ms, on trial %.3f ms: %s",
+             ms(median(sync_ns_)), ms(median(buffered_ns_)), ms(median(trial_ns_)),
+             async ? "asynchronous" : "synchronous");
+  return line;
+}
 
 bool ReadPolicy::in_place(const ReadCase& read) const {
   const bool late = read.may_be_late && wish_ == Readback::kAsync;

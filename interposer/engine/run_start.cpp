@@ -5,7 +5,6 @@
 #include <sys/auxv.h>
 
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 

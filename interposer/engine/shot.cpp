@@ -1,21 +1,18 @@
 // Shot: drawables are read by their source, images in the program's context or, multisampled, beside it.
 #include "interposer/engine/shot.h"
 
-#include "interposer/engine/monotonic_clock.h"
 #include "interposer/engine/readback/in_context_readback.h"
 #include "interposer/engine/readback/resolve_readback.h"
+#include "interposer/system_calls.h"
 
 namespace tilepress {
-namespace {
 
-std::string damage_text(const TilepressPresent& present) {
+static std::string damage_text(const TilepressPresent& present) {
   std::string text;
   for (int32_t i = 0; present.damage != nullptr && i < 4 * present.damage_count; ++i)
     (text += i % 4 == 0 ? ';' : ' ') += std::to_string(present.damage[i]);
   return text.empty() ? text : text.substr(1);
 }
-
-}  // namespace
 
 Shot ShotBuilder::of_drawable(const Drawable& drawable, uint64_t begin_ns) const {
   Shot shot;
@@ -65,7 +62,7 @@ Shot ShotBuilder::of_image(const Attachment& image, const Result<ImageShape>& me
   shot.read = [this, &image, &measured, use](CapturedFrame& frame) -> Result<void> {
     frame.way = ReadWay::kInContext;
     if (read_attachment_in_program_context(source_.gl(), image, use, measured->shape, frame)) return {};
-    return Error{ErrorKind::kUnsupported, "the program's context cannot be read"};
+    return unreadable("the program's context cannot be read");
   };
   return shot;
 }

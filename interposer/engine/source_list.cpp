@@ -4,13 +4,10 @@
 #include <dlfcn.h>
 
 namespace tilepress {
-namespace {
 
-const char* swap_of(uint32_t api) {
+static const char* swap_of(uint32_t api) {
   return api == TILEPRESS_EGL ? "eglSwapBuffers" : "glXSwapBuffers";
 }
-
-}  // namespace
 
 std::unique_ptr<PresentSource> SourceList::make(const TilepressPresent& present) {
   const SourceSettings settings{host_, reader_, in_context_only_};

@@ -31,6 +31,15 @@ struct SurfaceShape {
   bool operator==(const SurfaceShape&) const = default;
 };
 
+/// What a present shows, as a source describes it once per frame.
+struct Drawable {
+  WindowKey key{};
+  SurfaceShape shape;
+  void* config = nullptr;       ///< EGLConfig or GLXFBConfig, valid as long as the display; null for OSMesa
+  bool double_buffered = true;  ///< GLX only: an EGL surface has a query of its own
+  bool multisampled = false;    ///< a read must resolve the drawable first
+};
+
 /// A surface is a buffer with a size and a pixel format. When a window changes either, its next frame is
 /// frame 0 of a new surface.
 class SurfaceRegistry {

@@ -8,7 +8,6 @@
 #include "c_library.h"
 #include "plain_text.h"
 
-__attribute__((visibility("default"))) const char* __asan_default_options(void);
 __attribute__((visibility("default"))) const char* __asan_default_options(void) {
   static char bytes[4096];
   struct tp_text options = {bytes, sizeof bytes, 0, false};

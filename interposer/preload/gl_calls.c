@@ -97,7 +97,6 @@ void* tp_gl_osmesa(void) {
 
 // The stubs call this in three cases: the slot has no real function, the thread has no place for its mark, or
 // the call is more than a mark. Returns the function to go on with; NULL if no library defines it.
-void* tp_gl_before(struct tp_gl_slot* slot, const uintptr_t* arguments, void* caller);
 void* tp_gl_before(struct tp_gl_slot* slot, const uintptr_t* arguments, void* caller) {
   void* real = __atomic_load_n(&slot->real, __ATOMIC_ACQUIRE);
   const uint32_t kind = (uint32_t)slot->kind;

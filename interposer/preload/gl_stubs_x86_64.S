@@ -48,14 +48,9 @@ tp_gl_enter:
   movq %rcx, 24(%rsp)
   movq %r8, 32(%rsp)
   movq %r9, 40(%rsp)
-  movaps %xmm0, 48(%rsp)
-  movaps %xmm1, 64(%rsp)
-  movaps %xmm2, 80(%rsp)
-  movaps %xmm3, 96(%rsp)
-  movaps %xmm4, 112(%rsp)
-  movaps %xmm5, 128(%rsp)
-  movaps %xmm6, 144(%rsp)
-  movaps %xmm7, 160(%rsp)
+  .irp n, 0, 1, 2, 3, 4, 5, 6, 7
+  movaps %xmm\n, 48 + 16 * \n(%rsp)
+  .endr
   movq %r10, %rdi
   movq %rsp, %rsi
   movq 8(%rbp), %rdx
@@ -66,14 +61,9 @@ tp_gl_enter:
   movq 24(%rsp), %rcx
   movq 32(%rsp), %r8
   movq 40(%rsp), %r9
-  movaps 48(%rsp), %xmm0
-  movaps 64(%rsp), %xmm1
-  movaps 80(%rsp), %xmm2
-  movaps 96(%rsp), %xmm3
-  movaps 112(%rsp), %xmm4
-  movaps 128(%rsp), %xmm5
-  movaps 144(%rsp), %xmm6
-  movaps 160(%rsp), %xmm7
+  .irp n, 0, 1, 2, 3, 4, 5, 6, 7
+  movaps 48 + 16 * \n(%rsp), %xmm\n
+  .endr
   leave
   .cfi_def_cfa %rsp, 8
   testq %rax, %rax

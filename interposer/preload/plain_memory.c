@@ -5,11 +5,6 @@
 
 #define HIDDEN __attribute__((visibility("hidden")))
 
-HIDDEN void* memcpy(void* restrict to, const void* restrict from, size_t count);
-HIDDEN void* memmove(void* to, const void* from, size_t count);
-HIDDEN void* memset(void* to, int value, size_t count);
-HIDDEN int memcmp(const void* a, const void* b, size_t count);
-
 HIDDEN void* memcpy(void* restrict to, const void* restrict from, size_t count) {
   for (size_t i = 0; i < count; ++i) ((uint8_t*)to)[i] = ((const uint8_t*)from)[i];
   return to;

@@ -12,16 +12,13 @@
 #include "tilepress/run_lock.h"
 
 namespace tilepress {
-namespace {
 
 constexpr int kLowestDescriptor = 200;
 
 /// Opens the file with a high number where the process may have one.
-int open_high(const std::string& path, int flags) {
+static int open_high(const std::string& path, int flags) {
   return open_above_streams(path, flags | O_WRONLY | O_APPEND, 0644, kLowestDescriptor);
 }
-
-}  // namespace
 
 AppendFile::~AppendFile() {
   if (is_open() && is_this_file()) close(fd_);

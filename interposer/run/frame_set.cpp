@@ -5,14 +5,11 @@
 #include <charconv>
 
 namespace tilepress {
-namespace {
 
-bool parse_number(std::string_view text, uint64_t& out) {
+static bool parse_number(std::string_view text, uint64_t& out) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), out);
   return code == std::errc() && end == text.data() + text.size() && !text.empty();
 }
-
-}  // namespace
 
 Result<FrameSet> FrameSet::parse(std::string_view text) {
   FrameSet set;

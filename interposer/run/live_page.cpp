@@ -142,19 +142,12 @@ bool LiveReader::read(LiveState& out) const {
   return false;
 }
 
-namespace {
-RunCounts counts_of(const LiveCounts& counts) {
-  return {counts.seen,    counts.captured,    counts.dropped,
-          counts.skipped, counts.unsupported, counts.not_captured};
-}
-}  // namespace
-
 RunCounts LiveReader::presented() const {
-  return page_ == nullptr ? RunCounts{} : counts_of(page_->presented);
+  return page_ == nullptr ? RunCounts{} : page_->presented.now();
 }
 
 RunCounts LiveReader::targets() const {
-  return page_ == nullptr ? RunCounts{} : counts_of(page_->targets);
+  return page_ == nullptr ? RunCounts{} : page_->targets.now();
 }
 
 void LiveReader::ask_for_pictures() {

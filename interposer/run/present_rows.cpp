@@ -2,7 +2,6 @@
 #include "tilepress/present_rows.h"
 
 namespace tilepress {
-namespace {
 
 /// Runs of earlier versions lack the last columns.
 constexpr bool kOptional = true;
@@ -36,8 +35,6 @@ constexpr CsvColumn<PresentTimeRow> kPresentTimeColumns[] = {
     csv_column<PresentTimeRow, &PresentTimeRow::begin_ns>("begin_ns"),
     csv_column<PresentTimeRow, &PresentTimeRow::hook_ns>("hook_ns"),
 };
-
-}  // namespace
 
 std::span<const CsvColumn<PresentRow>> present_columns() {
   return kPresentColumns;

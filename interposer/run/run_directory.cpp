@@ -11,11 +11,8 @@
 #include "tilepress/statistics_rows.h"
 
 namespace tilepress {
-namespace {
 
 constexpr uint64_t kJsonPeriodNs = 500'000'000;
-
-}  // namespace
 
 RunWriter::RunWriter() : frames_(std::make_unique<AppendFile>()), schemes_(std::make_unique<AppendFile>()) {}
 

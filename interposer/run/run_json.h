@@ -1,7 +1,6 @@
 // Run JSON: writes and reads run.json.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -6,16 +6,13 @@
 #include "tilepress/run_option_table.h"
 
 namespace tilepress {
-namespace {
 
-Result<void> set_as(const std::string& subject, const RunOption& option, RunOptions& options,
-                    std::string_view value) {
+static Result<void> set_as(const std::string& subject, const RunOption& option, RunOptions& options,
+                           std::string_view value) {
   auto set = option.text.set(option, options, value);
   if (set) return set;
   return Error{set.error().kind, subject + set.error().text};
 }
-
-}  // namespace
 
 Result<void> set_run_option(RunOptions& options, std::string_view name, std::string_view value) {
   const RunOption* option = find_run_option(name);

@@ -1,6 +1,5 @@
 // Readback probe: what it decides, on costs that are made up.
 #include "interposer/engine/read_policy.h"
-#include "interposer/engine/readback/readback_probe.h"
 
 #include <gtest/gtest.h>
 

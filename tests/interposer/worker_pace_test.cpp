@@ -1,5 +1,5 @@
 // The worker's pace: when it lets the program go first, and the thread on which it does.
-#include "interposer/engine/worker/worker_pace.h"
+#include "interposer/engine/worker/yielding_thread.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -8,8 +8,6 @@
 
 #include <stdexcept>
 #include <thread>
-
-#include "interposer/engine/worker/yielding_thread.h"
 
 namespace tilepress {
 namespace {

@@ -10,7 +10,7 @@
 #include "summary_table.h"
 #include "tilepress/run_lock.h"
 #include "tilepress/run_reader.h"
-#include "tilepress/session_mark.h"
+#include "tilepress/run_folder.h"
 
 namespace tilepress {
 namespace {

@@ -19,8 +19,7 @@
 #include <tuple>
 
 #include "printable.h"
-#include "tilepress/session_mark.h"
-#include "tilepress/shared_folder.h"
+#include "tilepress/run_folder.h"
 
 namespace tilepress {
 namespace {

@@ -26,20 +26,11 @@ constexpr TextureTarget kTargets[] = {
     {GL_TEXTURE_1D, GL_TEXTURE_1D, false, false},
 };
 
-Error unknown(const char* text) {
-  return {ErrorKind::kUnsupported, text};
-}
-
 Result<ImageShape> shape_of(const Attachment& attachment, GLint width, GLint height, GLint samples) {
-  if (width < 1 || height < 1) return unknown("GL has no query for the size of the image");
+  if (width < 1 || height < 1) return unreadable("GL has no query for the size of the image");
   return ImageShape{{static_cast<uint32_t>(width), static_cast<uint32_t>(height), format_of(attachment.bits),
                      attachment.srgb},
                     samples};
-}
-
-void clear_errors(const GlFunctions& gl) {
-  while (gl.GetError() != GL_NO_ERROR) {
-  }
 }
 
 }  // namespace
@@ -50,9 +41,9 @@ Result<ImageShape> shape_in_program_context(const GlFunctions& gl, const Attachm
   if (version.embedded || version.number < 45 || gl.GetTextureLevelParameteriv == nullptr ||
       gl.GetNamedRenderbufferParameteriv == nullptr || gl.IsTexture == nullptr ||
       gl.IsRenderbuffer == nullptr)
-    return unknown("the program's context has no query for the size of its images");
+    return unreadable("the program's context has no query for the size of its images");
   if (attachment.texture ? !gl.IsTexture(attachment.name) : !gl.IsRenderbuffer(attachment.name))
-    return unknown("the image is deleted");
+    return unreadable("the image is deleted");
   if (attachment.texture) {
     gl.GetTextureLevelParameteriv(attachment.name, attachment.level, GL_TEXTURE_WIDTH, &width);
     gl.GetTextureLevelParameteriv(attachment.name, attachment.level, GL_TEXTURE_HEIGHT, &height);
@@ -68,10 +59,10 @@ Result<ImageShape> shape_in_program_context(const GlFunctions& gl, const Attachm
 Result<ImageShape> shape_in_sharing_context(const GlFunctions& gl, const Attachment& attachment) {
   const ContextVersion version = version_of(gl);
   GLint width = 0, height = 0, samples = 0;
-  clear_errors(gl);
+  gl.clear_errors();
   const bool exists = attachment.texture ? gl.IsTexture != nullptr && gl.IsTexture(attachment.name)
                                          : gl.IsRenderbuffer != nullptr && gl.IsRenderbuffer(attachment.name);
-  if (!exists) return unknown("the image is deleted");  // to bind its name would make another
+  if (!exists) return unreadable("the image is deleted");  // to bind its name would make another
   if (!attachment.texture) {
     gl.BindRenderbuffer(GL_RENDERBUFFER, attachment.name);
     gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_WIDTH, &width);
@@ -80,7 +71,7 @@ Result<ImageShape> shape_in_sharing_context(const GlFunctions& gl, const Attachm
       gl.GetRenderbufferParameteriv(GL_RENDERBUFFER, GL_RENDERBUFFER_SAMPLES, &samples);
     gl.BindRenderbuffer(GL_RENDERBUFFER, 0);
   } else if (gl.GetTexLevelParameteriv == nullptr || (version.embedded && version.number < 31)) {
-    return unknown("OpenGL ES before 3.1 has no query for the size of a texture");
+    return unreadable("OpenGL ES before 3.1 has no query for the size of a texture");
   }
   for (const TextureTarget& target : kTargets) {
     if (!attachment.texture || (version.embedded && !target.embedded)) continue;
@@ -93,7 +84,7 @@ Result<ImageShape> shape_in_sharing_context(const GlFunctions& gl, const Attachm
     gl.BindTexture(target.bind, 0);
     break;
   }
-  clear_errors(gl);
+  gl.clear_errors();
   return shape_of(attachment, width, height, samples);
 }
 

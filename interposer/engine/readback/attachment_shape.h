@@ -2,7 +2,7 @@
 #pragma once
 
 #include "interposer/engine/readback/bound_framebuffer.h"
-#include "interposer/engine/surface_registry.h"
+#include "interposer/engine/readback/captured_frame.h"
 #include "tilepress/result.h"
 
 namespace tilepress {

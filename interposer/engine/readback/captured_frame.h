@@ -1,15 +1,18 @@
 // Captured frame: the pixels of one presented frame on their way from the program's thread to the worker.
 #pragma once
 
+#include <sys/mman.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 
-#include "interposer/engine/readback/late_read.h"
-#include "interposer/engine/readback/pixel_memory.h"
+#include "interposer/engine/readback/pixel_buffers.h"
 #include "interposer/engine/surface_registry.h"
+#include "tilepress/result.h"
 #include "tilepress/surface.h"
 
 namespace tilepress {
@@ -20,6 +23,43 @@ enum class ReadWay : uint8_t {
   kAsync,      ///< into a pixel buffer; the pixels follow
   kBoth,       ///< synchronously, and into a pixel buffer too for the time it takes
   kInContext,  ///< synchronously, in the program's own context
+};
+
+/// Why a frame cannot be read.
+inline Error unreadable(const char* text) {
+  return {ErrorKind::kUnsupported, text};
+}
+
+/// Memory for the pixels of a frame. A mapping, so that the program's allocator stays out of it. Without huge
+/// pages: reads into them are no faster, and a virtual machine takes longer to provide them than a program to
+/// draw its first frames.
+class PixelMemory {
+ public:
+  PixelMemory() = default;
+  PixelMemory(const PixelMemory&) = delete;
+  PixelMemory& operator=(const PixelMemory&) = delete;
+  ~PixelMemory() { unmap(); }
+  /// Returns room for `bytes` bytes with undefined contents, or null without memory. Keeps the memory for
+  /// later calls.
+  std::byte* reserve(size_t bytes) {
+    if (bytes <= capacity_ && start_ != nullptr) return start_;
+    unmap();
+    const size_t room = std::max<size_t>(bytes, 1);
+    void* found = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (found == MAP_FAILED) return nullptr;
+    start_ = static_cast<std::byte*>(found);
+    capacity_ = room;
+    return start_;
+  }
+
+ private:
+  void unmap() {
+    if (start_ != nullptr) munmap(start_, capacity_);
+    start_ = nullptr;
+    capacity_ = 0;
+  }
+  std::byte* start_ = nullptr;
+  size_t capacity_ = 0;
 };
 
 /// Owns its pixels; the memory is kept when the frame is used again.

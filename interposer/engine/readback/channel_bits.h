@@ -15,6 +15,17 @@ struct ChannelBits {
 };
 
 /// Returns the pixel format with exactly these channels, if there is one.
-std::optional<PixelFormat> format_of(const ChannelBits& bits);
+inline std::optional<PixelFormat> format_of(const ChannelBits& bits) {
+  const auto is = [&](int red, int green, int blue, int alpha) {
+    return bits.red == red && bits.green == green && bits.blue == blue && bits.alpha == alpha;
+  };
+  if (bits.integer) return std::nullopt;
+  if (bits.floating) return is(16, 16, 16, 16) ? std::optional(PixelFormat::kRgba16f) : std::nullopt;
+  if (is(8, 8, 8, 8)) return PixelFormat::kRgba8;
+  if (is(8, 8, 8, 0)) return PixelFormat::kRgbx8;
+  if (is(5, 6, 5, 0)) return PixelFormat::kRgb565;
+  if (is(10, 10, 10, 2) || is(10, 10, 10, 0)) return PixelFormat::kRgb10a2;  // without alpha GL reads A as 1
+  return std::nullopt;
+}
 
 }  // namespace tilepress

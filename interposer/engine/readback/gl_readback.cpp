@@ -4,23 +4,19 @@
 
 #include <utility>
 
-#include "interposer/engine/monotonic_clock.h"
 #include "interposer/engine/readback/resolve_readback.h"
 #include "interposer/engine/readback/transfer.h"
+#include "interposer/system_calls.h"
 
 namespace tilepress {
-namespace {
 
-Transfer transfer_of(PixelFormat format, const GlFunctions& gl) {
+static Transfer transfer_of(PixelFormat format, const GlFunctions& gl) {
   GLint preferred_format = 0, preferred_type = 0;
   gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &preferred_format);
   gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &preferred_type);
-  while (gl.GetError() != GL_NO_ERROR) {
-  }  // desktop GL before 4.1 does not have the query
+  gl.clear_errors();  // desktop GL before 4.1 does not have the query
   return tilepress::transfer_of(format, preferred_format, preferred_type);
 }
-
-}  // namespace
 
 bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
                       const std::shared_ptr<PixelBuffers>& buffers, CapturedFrame& frame) {

@@ -5,10 +5,10 @@
 #include <cstring>
 #include <optional>
 
-#include "interposer/engine/monotonic_clock.h"
 #include "interposer/engine/readback/neutral_read_state.h"
 #include "interposer/engine/readback/transfer.h"
 #include "interposer/engine/source/context_version.h"
+#include "interposer/system_calls.h"
 
 namespace tilepress {
 namespace {

@@ -7,16 +7,13 @@
 #include <cstdlib>
 #include <utility>
 
-#include "interposer/engine/monotonic_clock.h"
 #include "interposer/engine/own_calls.h"
+#include "interposer/system_calls.h"
 
 namespace tilepress {
-namespace {
 
 constexpr uint64_t kPatience = 2'000'000'000;  // ns
-std::atomic<LateReader*> running{nullptr};
-
-}  // namespace
+static std::atomic<LateReader*> running{nullptr};
 
 LateReader::LateReader() : pid_(getpid()) {}
 

@@ -4,7 +4,6 @@
 #include <GL/glext.h>
 
 #include <algorithm>
-#include <bitset>
 #include <cstring>
 #include <string>
 

@@ -6,24 +6,20 @@
 
 #include <cstring>
 
-#include "interposer/engine/monotonic_clock.h"
 #include "interposer/engine/source/context_version.h"
+#include "interposer/system_calls.h"
 
 namespace tilepress {
-namespace {
 
 constexpr uint64_t kSliceNs = 100'000'000;
 constexpr int kSlices = 100;  // after ten seconds the graphics processor counts as hung
 
-bool has_extension(const GlFunctions& gl, const char* name) {
+static bool has_extension(const GlFunctions& gl, const char* name) {
   const auto* all = reinterpret_cast<const char*>(gl.GetString(GL_EXTENSIONS));
   const bool found = all != nullptr && strstr(all, name) != nullptr;
-  while (gl.GetError() != GL_NO_ERROR) {
-  }  // core profiles do not have the string
+  gl.clear_errors();  // core profiles do not have the string
   return found;
 }
-
-}  // namespace
 
 bool PixelBuffers::offered(const GlFunctions& gl) {
   const bool complete = gl.GenBuffers != nullptr && gl.DeleteBuffers != nullptr && gl.BindBuffer != nullptr &&

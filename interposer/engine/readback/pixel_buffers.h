@@ -8,10 +8,20 @@
 #include <mutex>
 #include <vector>
 
-#include "interposer/engine/readback/late_read.h"
 #include "interposer/engine/source/gl_functions.h"
 
 namespace tilepress {
+
+class PixelBuffers;
+
+/// Pixels that GL is still writing into a buffer object. PixelBuffers::begin makes it.
+/// PixelBuffers::take or equals ends it, once.
+struct LateRead {
+  std::shared_ptr<PixelBuffers> buffers;  ///< the group that `buffer` belongs to
+  GLuint buffer = 0;
+  void* fence = nullptr;  ///< GLsync, signalled when the pixels are there
+  size_t bytes = 0;
+};
 
 /// A second context that shares the buffers, for the late reader's thread.
 struct TwinContext {

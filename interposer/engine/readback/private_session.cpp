@@ -2,18 +2,13 @@
 #include "interposer/engine/readback/private_session.h"
 
 #include <memory>
-#include <utility>
 
-#include "interposer/engine/monotonic_clock.h"
 #include "interposer/engine/readback/gl_readback.h"
 #include "interposer/engine/readback/in_context_readback.h"
+#include "interposer/system_calls.h"
 
 namespace tilepress {
 namespace {
-
-Error unsupported(const char* text) {
-  return {ErrorKind::kUnsupported, text};
-}
 
 Error not_back() {
   return {ErrorKind::kSystem, "the program's context could not be made current again"};
@@ -34,7 +29,7 @@ Result<void> PrivateSession::read(const TilepressPresent& present, const Drawabl
     return read_swapped(program, present, drawable, api_.buffer_of(drawable), frame);
   };
   if (in_context_only_ || !api_.can_come_back(present))
-    return in_place ? read_here() : unsupported("the drawable is current nowhere");
+    return in_place ? read_here() : unreadable("the drawable is current nowhere");
   if (in_place && frame.way == ReadWay::kInContext && read_here()) return {};
   if (frame.way == ReadWay::kInContext) frame.way = ReadWay::kSync;
   Result<void> done = read_privately(program, drawable, frame);
@@ -45,7 +40,7 @@ Result<void> PrivateSession::read(const TilepressPresent& present, const Drawabl
 Result<void> PrivateSession::read_in_place(const TilepressPresent& present, const Drawable& drawable,
                                            GLenum buffer, CapturedFrame& frame) {
   const Binding program = api_.current();
-  if (!is_current(program, drawable)) return unsupported("the drawable is not current");
+  if (!is_current(program, drawable)) return unreadable("the drawable is not current");
   return read_swapped(program, present, drawable, buffer, frame);
 }
 
@@ -56,19 +51,19 @@ Result<void> PrivateSession::read_swapped(const Binding& program, const Tilepres
                                           const Drawable& drawable, GLenum buffer, CapturedFrame& frame) {
   frame.way = ReadWay::kInContext;
   if (drawable.multisampled)
-    return unsupported("a multisampled surface is resolved in a private context alone");
+    return unreadable("a multisampled surface is resolved in a private context alone");
   const bool swap = program.read != drawable.key.surface;
   const Binding swapped{program.display, program.read, program.draw, program.context};
   const uint64_t begin_ns = now_ns();
   if (swap && !api_.can_come_back(present))
-    return unsupported("the drawable that the program reads from is destroyed");
-  if (swap && !api_.bind(swapped)) return unsupported("the drawable cannot be read in the program's context");
+    return unreadable("the drawable that the program reads from is destroyed");
+  if (swap && !api_.bind(swapped)) return unreadable("the drawable cannot be read in the program's context");
   const uint64_t bound_ns = now_ns();
   const bool taken = read_in_program_context(gl_, drawable.shape, buffer, frame);
   const uint64_t taken_ns = now_ns();
   if (swap && !api_.bind(program)) return not_back();
   if (swap) frame.bind_ns = now_ns() - begin_ns - (taken_ns - bound_ns);
-  if (!taken) return unsupported("the program's context cannot be read");
+  if (!taken) return unreadable("the program's context cannot be read");
   return {};
 }
 
@@ -96,14 +91,13 @@ Result<void> PrivateSession::read_privately(Binding program, const Drawable& dra
   if (bound && !api_.bind(program)) return not_back();
   frame.bind_ns = now_ns() - begin_ns - (taken_ns - bound_ns);
   if (own.context != nullptr) pool_.give(key, own.context);
-  if (!taken)
-    return unsupported(bound ? "glReadPixels failed" : "the private context cannot be made current");
+  if (!taken) return unreadable(bound ? "glReadPixels failed" : "the private context cannot be made current");
   return {};
 }
 
 Result<void> PrivateSession::beside(const TilepressPresent& present, const std::function<void()>& work) {
-  if (in_context_only_) return unsupported("--readback in-context forbids private contexts");
-  if (!api_.can_come_back(present)) return unsupported("the program's context or drawable is destroyed");
+  if (in_context_only_) return unreadable("--readback in-context forbids private contexts");
+  if (!api_.can_come_back(present)) return unreadable("the program's context or drawable is destroyed");
   const Binding program = api_.current();
   const ContextPool::Key key{program.display, reinterpret_cast<uintptr_t>(program.context)};
   void* own = sharing_.take(key);
@@ -113,7 +107,7 @@ Result<void> PrivateSession::beside(const TilepressPresent& present, const std::
   const bool back = !bound || api_.bind(program);
   if (own != nullptr) sharing_.give(key, own);
   if (!back) return not_back();
-  if (!bound) return unsupported("no private context can share objects with the program's");
+  if (!bound) return unreadable("no private context can share objects with the program's");
   return {};
 }
 

@@ -1,16 +1,97 @@
 // Private session: reads a drawable in a context of our own, or in the program's where there is no other way.
 #pragma once
 
+#include <GL/gl.h>
+
+#include <algorithm>
+#include <cstdint>
 #include <functional>
+#include <mutex>
+#include <vector>
 
 #include "interposer/engine/readback/captured_frame.h"
-#include "interposer/engine/readback/context_api.h"
-#include "interposer/engine/readback/context_pool.h"
 #include "interposer/engine/readback/late_reader.h"
 #include "interposer/engine/readback/pixel_buffer_groups.h"
+#include "interposer/engine/readback/pixel_buffers.h"
+#include "interposer/engine_contract.h"
 #include "tilepress/result.h"
 
 namespace tilepress {
+
+/// What is current on a thread.
+struct Binding {
+  void* display = nullptr;
+  uintptr_t draw = 0, read = 0;  ///< EGLSurface or GLXDrawable
+  void* context = nullptr;       ///< EGLContext or GLXContext; null = nothing is current
+};
+
+/// The calls in which EGL and GLX differ for a private session.
+class ContextApi {
+ public:
+  virtual Binding current() const = 0;
+  /// Returns true if the program's context and drawables can be made current again.
+  virtual bool can_come_back(const TilepressPresent& present) const = 0;
+  /// The buffer of `drawable` that the present shows: GL_BACK or GL_FRONT.
+  virtual GLenum buffer_of(const Drawable& drawable) const = 0;
+
+  virtual bool bind(const Binding& binding) const = 0;
+  /// Makes `own`, which shares objects with the program's context, current on the program's thread.
+  virtual bool bind_sharing(const Binding& program, void* own) const = 0;
+
+  /// Each of the two returns null if there is no such context.
+  virtual void* create_private(const Drawable& drawable, const Binding& program) const = 0;
+  virtual void* create_sharing(const TilepressPresent& present, const Binding& program) = 0;
+  /// Makes the twin of the private context `own`, which is current. Returns false if there is no twin.
+  virtual bool create_twin(const Drawable& drawable, void* own, TwinContext& twin) const = 0;
+  virtual void destroy(void* display, void* context) const = 0;
+
+ protected:
+  ~ContextApi() = default;
+};
+
+/// Contexts that are current on no thread. The pool destroys none: at the end of a process GL must not be
+/// called.
+class ContextPool {
+ public:
+  struct Key {
+    const void* display;
+    uintptr_t config;
+    bool operator==(const Key&) const = default;
+  };
+  /// Returns a free context for `key`, or null. The caller owns the context until give().
+  void* take(const Key& key) {
+    std::lock_guard lock(mutex_);
+    const auto found =
+        std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.key == key; });
+    if (found == entries_.end()) return nullptr;
+    void* context = found->context;
+    entries_.erase(found);
+    return context;
+  }
+  void give(const Key& key, void* context) {
+    std::lock_guard lock(mutex_);
+    entries_.push_back({key, context});
+  }
+  /// Takes out all free contexts of `display`.
+  std::vector<void*> take_all(const void* display) {
+    std::lock_guard lock(mutex_);
+    std::vector<void*> taken;
+    std::erase_if(entries_, [&](const Entry& entry) {
+      if (entry.key.display != display) return false;
+      taken.push_back(entry.context);
+      return true;
+    });
+    return taken;
+  }
+
+ private:
+  struct Entry {
+    Key key;
+    void* context;
+  };
+  std::mutex mutex_;
+  std::vector<Entry> entries_;
+};
 
 /// The private contexts of one source, and how they are made current and left. Thread-safe. Errors have the
 /// kind kUnsupported if the frame cannot be read this way, and kSystem if the program's context could not be

@@ -2,12 +2,10 @@
 // 1.0 to 3.2. C, because the sample program that makes each state hostile is C.
 //
 // Not in the table, and why:
-// - Scissor, masks, sample coverage, rasterizer discard, conditional rendering, GL_FRAMEBUFFER_SRGB, queries
-// and
+// - Scissor, masks, sample coverage, rasterizer discard, conditional rendering, GL_FRAMEBUFFER_SRGB, queries,
 //   transform feedback: drawing, clears and glBlitFramebuffer heed them, glReadPixels does not.
 // - Pixel zoom and raster position: glDrawPixels, glBitmap and glCopyPixels heed them.
-// - glPixelMap tables, colour tables, filters, histogram, minmax: without effect while their switch below is
-// off.
+// - glPixelMap tables, colour tables, filters, histogram, minmax: no effect while their switch below is off.
 // - Render mode: glReadPixels is the same in GL_SELECT and GL_FEEDBACK.
 #pragma once
 

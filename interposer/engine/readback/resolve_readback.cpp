@@ -40,7 +40,7 @@ class ResolveObjects {
       gl_.FramebufferRenderbuffer(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, image.name);
       return true;
     }
-    clear_errors();
+    gl_.clear_errors();
     gl_.FramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE, image.name,
                              0);
     if (gl_.GetError() == GL_NO_ERROR) return true;
@@ -49,10 +49,6 @@ class ResolveObjects {
     return certain;
   }
   void read_what_was_drawn() const { gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffers_[0]); }
-  void clear_errors() const {
-    while (gl_.GetError() != GL_NO_ERROR) {
-    }
-  }
 
  private:
   /// Mesa answers 0 for every layer of a multisampled array.
@@ -106,14 +102,14 @@ void blit(const GlFunctions& gl, GLint width, GLint height) {
 
 Result<void> read_resolved(const GlFunctions& gl, const Attachment& attachment, const SurfaceShape& shape,
                            CapturedFrame& frame) {
-  const Error failed{ErrorKind::kUnsupported, "the image cannot be resolved"};
+  const Error failed = unreadable("the image cannot be resolved");
   if (!can_resolve(gl)) return failed;
   const auto width = static_cast<GLint>(shape.width), height = static_cast<GLint>(shape.height);
   const ResolveObjects objects(gl);
   objects.draw_to(storage_format(shape), width, height);
   if (!objects.read_from(attachment))
-    return Error{ErrorKind::kUnsupported, "the driver does not say which layer of the array is drawn"};
-  objects.clear_errors();
+    return unreadable("the driver does not say which layer of the array is drawn");
+  gl.clear_errors();
   blit(gl, width, height);
   if (gl.GetError() != GL_NO_ERROR) return failed;
   objects.read_what_was_drawn();

@@ -4,7 +4,6 @@
 #include <GL/glext.h>
 
 #include <algorithm>
-#include <initializer_list>
 
 namespace tilepress {
 namespace {

@@ -7,6 +7,7 @@
 #include <xcb/xproto.h>
 
 #include <cstdlib>
+#include <initializer_list>
 
 namespace tilepress {
 

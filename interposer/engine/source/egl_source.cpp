@@ -13,10 +13,6 @@
 namespace tilepress {
 namespace {
 
-Error unreadable(const char* text) {
-  return {ErrorKind::kUnsupported, text};
-}
-
 EGLSurface surface_of(const TilepressPresent& present) {
   return reinterpret_cast<EGLSurface>(present.surface);
 }

@@ -7,67 +7,89 @@
 #include <cstdint>
 #include <functional>
 
+// X(name, result, arguments...)
+// clang-format off
+#define TILEPRESS_GL_REQUIRED(X) \
+  X(GetString, const GLubyte*, GLenum) \
+  X(GetIntegerv, void, GLenum, GLint*) \
+  X(GetError, GLenum) \
+  X(PixelStorei, void, GLenum, GLint) \
+  X(ReadPixels, void, GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void*)
+
+/// Each may be null. A resolve of a multisampled image needs all from GenFramebuffers on.
+#define TILEPRESS_GL_OPTIONAL(X) \
+  X(GetStringi, const GLubyte*, GLenum, GLuint) \
+  X(GetFloatv, void, GLenum, GLfloat*) \
+  X(PixelTransferi, void, GLenum, GLint) \
+  X(PixelTransferf, void, GLenum, GLfloat) \
+  X(ClampColor, void, GLenum, GLenum) \
+  X(MatrixMode, void, GLenum) \
+  X(LoadMatrixf, void, const GLfloat*) \
+  X(ReadBuffer, void, GLenum) \
+  X(ReadBufferNV, void, GLenum) /* OpenGL ES 2 */ \
+  X(IsEnabled, GLboolean, GLenum) \
+  X(Enable, void, GLenum) \
+  X(Disable, void, GLenum) \
+  X(GenBuffers, void, GLsizei, GLuint*) \
+  X(DeleteBuffers, void, GLsizei, const GLuint*) \
+  X(BufferData, void, GLenum, ptrdiff_t, const void*, GLenum) \
+  X(MapBufferRange, void*, GLenum, ptrdiff_t, ptrdiff_t, GLbitfield) \
+  X(UnmapBuffer, GLboolean, GLenum) \
+  X(FenceSync, void*, GLenum, GLbitfield) \
+  X(ClientWaitSync, GLenum, void*, GLbitfield, uint64_t) \
+  X(DeleteSync, void, void*) \
+  X(Flush, void) \
+  X(BindBuffer, void, GLenum, GLuint) \
+  X(BindFramebuffer, void, GLenum, GLuint) \
+  X(BindFramebufferEXT, void, GLenum, GLuint) /* OpenGL before 3.0 */ \
+  X(BindFramebufferOES, void, GLenum, GLuint) /* OpenGL ES 1 */ \
+  X(CheckFramebufferStatus, GLenum, GLenum) \
+  X(GetFramebufferAttachmentParameteriv, void, GLenum, GLenum, GLenum, GLint*) \
+  X(IsTexture, GLboolean, GLuint) \
+  X(BindTexture, void, GLenum, GLuint) \
+  X(GetTexLevelParameteriv, void, GLenum, GLint, GLenum, GLint*) \
+  X(IsRenderbuffer, GLboolean, GLuint) \
+  X(BindRenderbuffer, void, GLenum, GLuint) \
+  X(GetRenderbufferParameteriv, void, GLenum, GLenum, GLint*) \
+  X(GetTextureLevelParameteriv, void, GLuint, GLint, GLenum, GLint*) /* OpenGL 4.5 */ \
+  X(GetNamedRenderbufferParameteriv, void, GLuint, GLenum, GLint*) /* OpenGL 4.5 */ \
+  X(GenFramebuffers, void, GLsizei, GLuint*) \
+  X(DeleteFramebuffers, void, GLsizei, const GLuint*) \
+  X(FramebufferRenderbuffer, void, GLenum, GLenum, GLenum, GLuint) \
+  X(FramebufferTexture2D, void, GLenum, GLenum, GLenum, GLuint, GLint) \
+  X(FramebufferTextureLayer, void, GLenum, GLenum, GLuint, GLint, GLint) \
+  X(GenRenderbuffers, void, GLsizei, GLuint*) \
+  X(DeleteRenderbuffers, void, GLsizei, const GLuint*) \
+  X(RenderbufferStorage, void, GLenum, GLenum, GLsizei, GLsizei) \
+  X(BlitFramebuffer, void, GLint, GLint, GLint, GLint, GLint, GLint, GLint, GLint, GLbitfield, GLenum)
+// clang-format on
+
 namespace tilepress {
 
-/// The functions of the first block are always set after load(). All others may be null.
 struct GlFunctions {
-  const GLubyte* (*GetString)(GLenum) = nullptr;
-  void (*GetIntegerv)(GLenum, GLint*) = nullptr;
-  GLenum (*GetError)() = nullptr;
-  void (*PixelStorei)(GLenum, GLint) = nullptr;
-  void (*ReadPixels)(GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void*) = nullptr;
-
-  const GLubyte* (*GetStringi)(GLenum, GLuint) = nullptr;
-  void (*GetFloatv)(GLenum, GLfloat*) = nullptr;
-  void (*PixelTransferi)(GLenum, GLint) = nullptr;
-  void (*PixelTransferf)(GLenum, GLfloat) = nullptr;
-  void (*ClampColor)(GLenum, GLenum) = nullptr;
-  void (*MatrixMode)(GLenum) = nullptr;
-  void (*LoadMatrixf)(const GLfloat*) = nullptr;
-  void (*ReadBuffer)(GLenum) = nullptr;
-  void (*ReadBufferNV)(GLenum) = nullptr;  ///< OpenGL ES 2
-  GLboolean (*IsEnabled)(GLenum) = nullptr;
-  void (*Enable)(GLenum) = nullptr;
-  void (*Disable)(GLenum) = nullptr;
-  void (*GenBuffers)(GLsizei, GLuint*) = nullptr;
-  void (*DeleteBuffers)(GLsizei, const GLuint*) = nullptr;
-  void (*BufferData)(GLenum, ptrdiff_t, const void*, GLenum) = nullptr;
-  void* (*MapBufferRange)(GLenum, ptrdiff_t, ptrdiff_t, GLbitfield) = nullptr;
-  GLboolean (*UnmapBuffer)(GLenum) = nullptr;
-  void* (*FenceSync)(GLenum, GLbitfield) = nullptr;
-  GLenum (*ClientWaitSync)(void*, GLbitfield, uint64_t) = nullptr;
-  void (*DeleteSync)(void*) = nullptr;
-  void (*Flush)() = nullptr;
-  void (*BindBuffer)(GLenum, GLuint) = nullptr;
-  void (*BindFramebuffer)(GLenum, GLuint) = nullptr;
-  void (*BindFramebufferEXT)(GLenum, GLuint) = nullptr;  ///< OpenGL before 3.0
-  void (*BindFramebufferOES)(GLenum, GLuint) = nullptr;  ///< OpenGL ES 1
-  GLenum (*CheckFramebufferStatus)(GLenum) = nullptr;
-  void (*GetFramebufferAttachmentParameteriv)(GLenum, GLenum, GLenum, GLint*) = nullptr;
-  GLboolean (*IsTexture)(GLuint) = nullptr;
-  void (*BindTexture)(GLenum, GLuint) = nullptr;
-  void (*GetTexLevelParameteriv)(GLenum, GLint, GLenum, GLint*) = nullptr;
-  GLboolean (*IsRenderbuffer)(GLuint) = nullptr;
-  void (*BindRenderbuffer)(GLenum, GLuint) = nullptr;
-  void (*GetRenderbufferParameteriv)(GLenum, GLenum, GLint*) = nullptr;
-  void (*GetTextureLevelParameteriv)(GLuint, GLint, GLenum, GLint*) = nullptr;  ///< OpenGL 4.5
-  void (*GetNamedRenderbufferParameteriv)(GLuint, GLenum, GLint*) = nullptr;    ///< OpenGL 4.5
-
-  // A resolve of a multisampled image needs all of these.
-  void (*GenFramebuffers)(GLsizei, GLuint*) = nullptr;
-  void (*DeleteFramebuffers)(GLsizei, const GLuint*) = nullptr;
-  void (*FramebufferRenderbuffer)(GLenum, GLenum, GLenum, GLuint) = nullptr;
-  void (*FramebufferTexture2D)(GLenum, GLenum, GLenum, GLuint, GLint) = nullptr;
-  void (*FramebufferTextureLayer)(GLenum, GLenum, GLuint, GLint, GLint) = nullptr;
-  void (*GenRenderbuffers)(GLsizei, GLuint*) = nullptr;
-  void (*DeleteRenderbuffers)(GLsizei, const GLuint*) = nullptr;
-  void (*RenderbufferStorage)(GLenum, GLenum, GLsizei, GLsizei) = nullptr;
-  void (*BlitFramebuffer)(GLint, GLint, GLint, GLint, GLint, GLint, GLint, GLint, GLbitfield,
-                          GLenum) = nullptr;
+#define TILEPRESS_MEMBER(name, result, ...) result (*name)(__VA_ARGS__) = nullptr;
+  TILEPRESS_GL_REQUIRED(TILEPRESS_MEMBER)
+  TILEPRESS_GL_OPTIONAL(TILEPRESS_MEMBER)
+#undef TILEPRESS_MEMBER
 
   using Lookup = std::function<void*(const char*)>;
-  /// Returns false if a function of the first block is missing.
-  bool load(const Lookup& look_up);
+  /// Returns false if a required function is missing.
+  bool load(const Lookup& look_up) {
+#define TILEPRESS_FILL(name, result, ...) \
+  name = reinterpret_cast<result (*)(__VA_ARGS__)>(look_up("gl" #name));
+    TILEPRESS_GL_REQUIRED(TILEPRESS_FILL)
+    TILEPRESS_GL_OPTIONAL(TILEPRESS_FILL)
+#undef TILEPRESS_FILL
+    if (ClampColor == nullptr)
+      ClampColor = reinterpret_cast<decltype(ClampColor)>(look_up("glClampColorARB"));
+    return GetString != nullptr && GetIntegerv != nullptr && GetError != nullptr && PixelStorei != nullptr &&
+           ReadPixels != nullptr;
+  }
+  /// Core profiles and old versions lack some queries.
+  void clear_errors() const {
+    while (GetError() != GL_NO_ERROR) {
+    }
+  }
 };
 
 }  // namespace tilepress

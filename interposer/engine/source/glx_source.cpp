@@ -3,20 +3,15 @@
 #include "interposer/engine/readback/private_session.h"
 #include "interposer/engine/source/config_cache.h"
 #include "interposer/engine/source/context_version.h"
-#include "interposer/engine/source/display_ends.h"
-#include "interposer/engine/source/display_locks.h"
 #include "interposer/engine/source/drawable_size.h"
 #include "interposer/engine/source/glx_functions.h"
 #include "interposer/engine/source/present_source.h"
+#include "interposer/engine/source/x_display.h"
 
 namespace tilepress {
 namespace {
 
 constexpr bool kResizable = true;  // the XID of a pbuffer looks like that of a window
-
-Error unreadable(const char* text) {
-  return {ErrorKind::kUnsupported, text};
-}
 
 class GlxSource final : public PresentSource, ContextApi {
  public:

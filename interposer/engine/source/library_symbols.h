@@ -1,8 +1,6 @@
 // Library symbols: lookups in the library that a given function belongs to, never through our own hooks.
 #pragma once
 
-#include <string>
-
 #include "interposer/engine_contract.h"
 
 namespace tilepress {

@@ -3,7 +3,6 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
-#include "interposer/engine/readback/gl_readback.h"
 #include "interposer/engine/readback/in_context_readback.h"
 #include "interposer/engine/source/library_symbols.h"
 #include "interposer/engine/source/present_source.h"
@@ -34,7 +33,7 @@ class OsmesaSource final : public PresentSource {
 
   Result<Drawable> describe(const TilepressPresent&) override {
     const GLint width = query(kWidth), height = query(kHeight);
-    if (width < 1 || height < 1) return Error{ErrorKind::kUnsupported, "no buffer is current"};
+    if (width < 1 || height < 1) return unreadable("no buffer is current");
     return Drawable{{context(), 0}, {static_cast<uint32_t>(width), static_cast<uint32_t>(height), format()}};
   }
 
@@ -47,11 +46,11 @@ class OsmesaSource final : public PresentSource {
                              CapturedFrame& frame) override {
     frame.way = ReadWay::kInContext;
     if (read_in_program_context(gl_, drawable.shape, buffer, frame)) return {};
-    return Error{ErrorKind::kUnsupported, "the program's context cannot be read"};
+    return unreadable("the program's context cannot be read");
   }
 
   Result<void> beside(const TilepressPresent&, const std::function<void()>&) override {
-    return Error{ErrorKind::kUnsupported, "an OSMesa context is alone on its thread"};
+    return unreadable("an OSMesa context is alone on its thread");
   }
 
   bool find_current(TilepressPresent& present, FramebufferUse) override {

@@ -4,14 +4,11 @@
 #include <cstring>
 
 namespace tilepress {
-namespace {
 
-const char* text_of(const GlFunctions& gl, GLenum name) {
+static const char* text_of(const GlFunctions& gl, GLenum name) {
   const auto* text = reinterpret_cast<const char*>(gl.GetString(name));
   return text != nullptr ? text : "";
 }
-
-}  // namespace
 
 GlStrings PresentSource::strings() const {
   return {text_of(gl(), GL_VENDOR), text_of(gl(), GL_RENDERER), text_of(gl(), GL_VERSION)};

@@ -8,7 +8,6 @@
 #include "interposer/engine/readback/bound_framebuffer.h"
 #include "interposer/engine/readback/captured_frame.h"
 #include "interposer/engine/readback/late_reader.h"
-#include "interposer/engine/source/drawable.h"
 #include "interposer/engine/source/gl_functions.h"
 #include "interposer/engine_contract.h"
 #include "tilepress/result.h"

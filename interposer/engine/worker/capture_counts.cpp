@@ -12,11 +12,6 @@ void RoleCounts::raise(Count count, uint64_t by) {
   }
 }
 
-RunCounts RoleCounts::now() const {
-  return {counts_.seen,    counts_.captured,    counts_.dropped,
-          counts_.skipped, counts_.unsupported, counts_.not_captured};
-}
-
 void RoleCounts::show_in(LiveCounts* shared) {
   shared_ = shared;
   if (shared == nullptr) return;

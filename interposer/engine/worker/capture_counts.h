@@ -16,7 +16,7 @@ class RoleCounts {
   using Count = std::atomic<uint64_t> LiveCounts::*;
   void raise(Count count, uint64_t by = 1);
   uint64_t seen() const { return counts_.seen; }
-  RunCounts now() const;
+  RunCounts now() const { return counts_.now(); }
   /// Copies the counts to `shared` from now on. Null ends that.
   void show_in(LiveCounts* shared);
   /// The program has ended: counts every frame that was seen and left no other trace as not captured.

@@ -3,15 +3,12 @@
 
 #include <sched.h>
 
-#include <cerrno>
-#include <cstring>
 #include <optional>
 
-#include "interposer/engine/monotonic_clock.h"
 #include "interposer/engine_contract.h"
 #include "interposer/run/descriptors.h"
-#include "tilepress/session_mark.h"
-#include "tilepress/shared_folder.h"
+#include "interposer/system_calls.h"
+#include "tilepress/run_folder.h"
 
 namespace tilepress {
 

@@ -13,7 +13,6 @@
 #include "interposer/engine/worker/plain_lock.h"
 #include "interposer/engine/worker/run_tables.h"
 #include "interposer/engine/worker/surviving_task.h"
-#include "interposer/engine/worker/worker_pace.h"
 #include "interposer/engine/worker/yielding_thread.h"
 #include "tilepress/frame_pictures.h"
 #include "tilepress/live_page.h"

@@ -3,16 +3,13 @@
 
 #include <memory>
 
-#include "interposer/engine/monotonic_clock.h"
+#include "interposer/system_calls.h"
 
 namespace tilepress {
-namespace {
 
 constexpr uint64_t kSecond = 1'000'000'000;
 constexpr uint64_t kPatience = 2 * kSecond;
 constexpr uint64_t kLook = kSecond / 10;  ///< how often the worker checks whether the program is gone
-
-}  // namespace
 
 void FrameQueue::List::append(CapturedFrame* frame) {
   frame->next = nullptr;

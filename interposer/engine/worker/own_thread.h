@@ -19,7 +19,6 @@ class OwnThread {
   /// Runs `work` on the thread, with all signals blocked. Returns false if the system has no thread left.
   bool start(const char* name, std::function<void()> work);
   bool started() const { return stack_ != nullptr; }
-  bool is_current() const { return started() && pthread_equal(thread_, pthread_self()) != 0; }
   /// Waits for the thread to end. start() may follow.
   void join();
 

@@ -6,7 +6,6 @@
 
 #include <climits>
 
-#include "interposer/engine/monotonic_clock.h"
 #include "interposer/system_calls.h"
 
 namespace tilepress {

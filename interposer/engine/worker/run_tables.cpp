@@ -1,5 +1,7 @@
-// Run tables: turns a frame into rows of the run's own tables.
+// Run tables: turns a frame into rows. The rows of .times files come from the presenting threads.
 #include "interposer/engine/worker/run_tables.h"
+
+#include <cstdlib>
 
 #include "tilepress/present_rows.h"
 
@@ -47,6 +49,26 @@ Result<void> RunTables::append_surface(const CapturedFrame& frame) {
               SurfaceRow{frame.surface, frame.role == SurfaceRole::kTarget ? "target" : "presented",
                          frame.origin, frame.view.width, frame.view.height, traits(frame.view.format).name,
                          frame.srgb ? "srgb" : "linear"}));
+}
+
+PresentTimes::PresentTimes(int64_t pid) {
+  const char* folder = std::getenv("TILEPRESS_PRESENT_TIMES");
+  if (folder == nullptr || *folder == 0) return;
+  const std::string stem = std::string(folder) + "/" + std::to_string(pid);
+  const std::string header = csv_header(present_time_columns());
+  std::string name = stem + ".times";
+  // In another PID namespace a process may have the same number.
+  Result<void> made = file_.create(name, header);
+  for (int suffix = 2; !made && made.error().kind == ErrorKind::kExists; ++suffix) {
+    name = stem + "-" + std::to_string(suffix) + ".times";
+    made = file_.create(name, header);
+  }
+}
+
+void PresentTimes::note(uintptr_t surface, uint64_t begin_ns, uint64_t hook_ns) {
+  const std::string row = line_of(present_time_columns(), PresentTimeRow{surface, begin_ns, hook_ns});
+  const std::lock_guard lock(mutex_);
+  (void)file_.append(row);
 }
 
 }  // namespace tilepress

@@ -5,16 +5,13 @@
 
 #include <utility>
 
-#include "interposer/engine/monotonic_clock.h"
+#include "interposer/system_calls.h"
 
 namespace tilepress {
-namespace {
 
-uint64_t thread_cpu_ns() {
+static uint64_t thread_cpu_ns() {
   return clock_ns(CLOCK_THREAD_CPUTIME_ID);
 }
-
-}  // namespace
 
 void YieldingThread::end() {
   if (!thread_.started()) return;

@@ -1,17 +1,35 @@
-// CSV rows: the records of a CSV file as rows of a table, their fields found by the names in the header.
+// CSV rows: the records of an RFC 4180 file, and as rows of a table with fields found by the header's names.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tilepress/csv_reader.h"
 #include "tilepress/csv_table.h"
 #include "tilepress/result.h"
 
 namespace tilepress {
+
+/// Walks over `text`, which must outlive the reader. A record ends with a newline ("\n" or "\r\n") outside
+/// quotes. Text after the last newline is a record that is still being written: the reader skips it.
+class CsvReader {
+ public:
+  explicit CsvReader(std::string_view text) : text_(text) {}
+  /// Reads the next complete record; false at the end.
+  bool next(std::vector<std::string>& fields);
+  /// First byte after the last record that next() read.
+  size_t offset() const { return offset_; }
+  /// Number of that record. The header is record 1.
+  size_t record() const { return record_; }
+
+ private:
+  std::string_view text_;
+  size_t offset_ = 0;
+  size_t record_ = 0;
+};
 
 /// Walks over the records after the header. `text` must outlive this.
 class CsvRecords {

@@ -46,6 +46,7 @@ struct LiveState {
 /// that they are right even if a signal kills the program and the capture together.
 struct LiveCounts {
   std::atomic<uint64_t> seen, captured, dropped, skipped, unsupported, not_captured;
+  RunCounts now() const { return {seen, captured, dropped, skipped, unsupported, not_captured}; }
 };
 
 /// The file's contents. The capture makes `sequence` odd while it changes `state`.

@@ -40,7 +40,6 @@ class RunWriter {
   const std::string& path() const { return path_; }
   /// Sums over the presented frames that are not warmup, in the order of the schemes.
   const std::vector<SchemeStatistics>& totals() const { return totals_; }
-  uint64_t measured_frames() const { return measured_frames_; }
 
  private:
   Result<void> write_json(const std::string& state, const std::string& reason);

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "tilepress/csv_reader.h"
+#include "tilepress/csv_rows.h"
 
 namespace tilepress {
 namespace {

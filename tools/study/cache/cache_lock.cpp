@@ -20,7 +20,7 @@
 #include "study/cache/file_bytes.h"
 #include "study/cache/host_name.h"
 #include "tilepress/file_error.h"
-#include "tilepress/session_mark.h"
+#include "tilepress/run_folder.h"
 
 namespace tilepress {
 namespace {

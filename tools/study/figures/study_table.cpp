@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "tilepress/csv_reader.h"
+#include "tilepress/csv_rows.h"
 #include "tilepress/csv_table.h"
 
 namespace tilepress {

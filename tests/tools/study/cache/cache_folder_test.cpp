@@ -15,7 +15,7 @@
 #include "made_frames.h"
 #include "study/cache/cache_lock.h"
 #include "study/cache/host_name.h"
-#include "tilepress/session_mark.h"
+#include "tilepress/run_folder.h"
 
 namespace tilepress {
 namespace {
