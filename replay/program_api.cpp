@@ -45,14 +45,13 @@ ApiGuess guess_program_api(const std::string& program_path) {
     std::copy_n(piece.begin() + static_cast<ptrdiff_t>(length - kept), kept, piece.begin());
   }
   if (egl != glx)
-    return {egl ? TraceApi::kEgl : TraceApi::kGlx, true,
-            egl ? "the program names EGL functions and no GLX ones"
-                : "the program names GLX functions and no EGL ones"};
+    return {egl ? TraceApi::kEgl : TraceApi::kGlx, egl ? "the program names EGL functions and no GLX ones"
+                                                       : "the program names GLX functions and no EGL ones"};
   const std::string both =
       egl ? "the program names functions of EGL and GLX" : "the program names neither EGL nor GLX";
-  if (is_set("WAYLAND_DISPLAY")) return {TraceApi::kEgl, false, both + "; WAYLAND_DISPLAY is set"};
-  if (!is_set("DISPLAY")) return {TraceApi::kEgl, false, both + "; there is no DISPLAY"};
-  return {TraceApi::kGlx, false, both + "; DISPLAY is set"};
+  if (is_set("WAYLAND_DISPLAY")) return {TraceApi::kEgl, both + "; WAYLAND_DISPLAY is set"};
+  if (!is_set("DISPLAY")) return {TraceApi::kEgl, both + "; there is no DISPLAY"};
+  return {TraceApi::kGlx, both + "; DISPLAY is set"};
 }
 
 }  // namespace tilepress

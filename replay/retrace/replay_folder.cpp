@@ -5,13 +5,10 @@
 #include <mutex>
 
 namespace tilepress {
-namespace {
 
 namespace fs = std::filesystem;
 
-std::mutex shared_parents;
-
-}  // namespace
+static std::mutex shared_parents;
 
 bool ReplayFolder::exists() const {
   std::error_code code;

@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "frame_rows.h"
-#include "plural.h"
 #include "replay_attempt.h"
 #include "replay_folder.h"
 #include "replay_road.h"

@@ -3,8 +3,6 @@
 
 #include <cstring>
 
-#include "plural.h"
-
 namespace tilepress {
 namespace {
 

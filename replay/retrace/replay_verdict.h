@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 #include "replay_attempt.h"
@@ -26,5 +27,10 @@ ReplayResult judge(const ReplayEvidence& evidence);
 
 /// How the retracer ended, as the end of a sentence; empty if it ended well.
 std::string end_text(const ReplayEvidence& evidence);
+
+/// "1 frame", "2 frames"
+inline std::string plural(uint64_t count, const char* noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
 
 }  // namespace tilepress

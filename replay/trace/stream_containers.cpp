@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "trace_container.h"
-#include "trace_fault.h"
 
 namespace tilepress {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "trace_container.h"
 #include "trace_events.h"
-#include "trace_fault.h"
 #include "trace_survey.h"
 
 namespace tilepress {

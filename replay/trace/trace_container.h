@@ -1,14 +1,54 @@
 // Trace container: the compressed file around an apitrace event stream, read piece by piece.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "tilepress/result.h"
-#include "trace_input.h"
+#include "tilepress/trace_summary.h"
 
 namespace tilepress {
+
+/// Why the reader stopped before the end of a trace. Thrown by the parts of the trace reader, at any depth,
+/// and caught by its public functions, which return it as the summary's state.
+struct TraceFault {
+  TraceState state;  ///< kTruncated or kCorrupt
+  std::string reason;
+};
+
+[[noreturn]] inline void fail_corrupt(std::string reason) {
+  throw TraceFault{TraceState::kCorrupt, std::move(reason)};
+}
+[[noreturn]] inline void fail_truncated(std::string reason) {
+  throw TraceFault{TraceState::kTruncated, std::move(reason)};
+}
+
+/// The bytes of a trace file, on disk or in memory.
+class TraceInput {
+ public:
+  explicit TraceInput(std::span<const uint8_t> memory) : memory_(memory), size_(memory.size()) {}
+  /// Opens a regular file. Error: kFile, or kUnsupported if the file is not a regular one.
+  static Result<TraceInput> open(const std::string& path);
+  TraceInput(TraceInput&& other) noexcept;
+  TraceInput& operator=(TraceInput&&) = delete;
+  ~TraceInput();
+
+  uint64_t size() const { return size_; }
+  uint64_t position() const { return position_; }
+  /// Reads `to.size()` bytes, and fewer only at the end of the file. Throws TraceFault if the disk fails.
+  size_t read(std::span<uint8_t> to);
+  void rewind();
+
+ private:
+  TraceInput(int fd, uint64_t size) : fd_(fd), size_(size) {}
+
+  std::span<const uint8_t> memory_;
+  int fd_ = -1;
+  uint64_t size_ = 0, position_ = 0;
+};
 
 /// No length in the file is trusted: a piece has at most kMaxPieceBytes, whatever the file claims.
 class TraceContainer {

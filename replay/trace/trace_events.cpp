@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "trace_fault.h"
-
 namespace tilepress {
 namespace {
 

@@ -5,8 +5,6 @@
 #include <array>
 #include <utility>
 
-#include "trace_fault.h"
-
 namespace tilepress {
 namespace {
 

@@ -1,8 +1,6 @@
 // Trace value: the reader that keeps or skips the arguments and results of recorded calls.
 #include "trace_value.h"
 
-#include "trace_fault.h"
-
 namespace tilepress {
 namespace {
 

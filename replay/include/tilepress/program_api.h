@@ -9,7 +9,6 @@ namespace tilepress {
 
 struct ApiGuess {
   TraceApi api = TraceApi::kGlx;  ///< kEgl or kGlx
-  bool certain = false;           ///< the program names functions of this API only
   std::string why;                ///< one line for -v
 };
 
