@@ -6,11 +6,10 @@
 #include "sections.h"
 
 namespace tilepress {
-namespace {
 
 constexpr double kPaperCoverageThreshold = 0.7;
 
-std::string scheme_chart(const Batch& batch, size_t index) {
+static std::string scheme_chart(const Batch& batch, size_t index) {
   const std::string& scheme = batch.schemes[index];
   std::vector<ScatterPoint> points;
   ValueRange range;
@@ -29,8 +28,6 @@ std::string scheme_chart(const Batch& batch, size_t index) {
       fmt::format("Rate of {} against FVC coverage, {} workloads. The table has all figures.", scheme,
                   points.size()));
 }
-
-}  // namespace
 
 Section coverage_section(const Batch& batch) {
   Section out{.id = "coverage", .heading = "Rate against FVC coverage"};

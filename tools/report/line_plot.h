@@ -1,7 +1,6 @@
 // Line plot: lines over one common axis, reduced to what a screen can show, as JSON for the page's script.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

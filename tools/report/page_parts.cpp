@@ -83,7 +83,7 @@ std::string section_html(const Section& section) {
   if (!section.note.empty()) out += "<p class=\"note\">" + section.note + "</p>\n";
   if (!section.chart.empty()) out += "<div class=\"chart\">\n" + section.chart + "</div>\n";
   const std::string button = csv_button(section.table.id, section.id + ".csv");
-  if (section.chart.empty() || section.table_open) {
+  if (section.chart.empty()) {
     out += table_html(section.table) + "<div class=\"tools\">" + button + "</div>\n";
   } else {
     out += "<div class=\"tools\">" + button + "</div>\n<details><summary>The same as a table</summary>\n" +

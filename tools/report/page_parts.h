@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "chart_markup.h"
-#include "html_table.h"
 #include "html_text.h"
 #include "run_summary.h"
 #include "tilepress/cost_model.h"
@@ -40,7 +39,6 @@ struct Section {
   std::string note{};   ///< HTML
   std::string chart{};  ///< HTML; empty: no chart
   Table table{};        ///< the chart's figures
-  bool table_open = false;
 };
 std::string section_html(const Section& section);
 

@@ -1,7 +1,8 @@
 // Published means: figures that the paper prints, for comparison with a report's own.
 #pragma once
 
-#include <span>
+#include <algorithm>
+#include <cctype>
 #include <string_view>
 
 namespace tilepress {
@@ -35,5 +36,12 @@ struct PublishedShare {
 };
 inline constexpr PublishedShare kPublishedShare = {
     "hdcp", "The paper: on average, VDCP and RAS code the same number of blocks."};
+
+/// "ui" and "UI" are the same category.
+inline bool same_category(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
+  });
+}
 
 }  // namespace tilepress

@@ -5,6 +5,7 @@
 
 #include "counted.h"
 #include "page_assets.h"
+#include "scheme_names.h"
 #include "sections.h"
 
 namespace tilepress {
@@ -38,13 +39,32 @@ std::string lead_text(const Batch& batch) {
     measured += run.measured;
   }
   return fmt::format(
-      "{}, {}, {} of them measured, {}. Framebuffer compression of captured frames in 8×8 blocks. Rate = raw bits "
-      "/ moved bits; higher is better.",
+      "{}, {}, {} of them measured, {}. Framebuffer compression of captured frames in 8×8 blocks. Rate = raw "
+      "bits / moved bits; higher is better.",
       counted(batch.runs.size(), "run"), counted(frames, "frame"), measured,
       counted(batch.schemes.size(), "scheme"));
 }
 
 }  // namespace
+
+std::vector<Section> page_sections(const Batch& batch) {
+  std::vector<std::string> dcp_family;
+  for (const std::string& scheme : batch.schemes)
+    if (scheme_family(scheme) == "dcp") dcp_family.push_back(scheme);
+  // The means come first after the workloads: most readers look for them.
+  std::vector<Section> out = {workloads_section(batch),
+                              means_section(batch, true),
+                              means_section(batch, false),
+                              extra_section(batch),
+                              energy_section(batch),
+                              published_section(batch),
+                              rates_section(batch, batch.schemes, true)};
+  if (!dcp_family.empty()) out.push_back(rates_section(batch, dcp_family, false));
+  out.push_back(coverage_section(batch));
+  for (Section& section : own_column_sections(batch)) out.push_back(std::move(section));
+  std::erase_if(out, [](const Section& section) { return section.heading.empty(); });
+  return out;
+}
 
 std::string report_page(const Batch& batch, const std::string& title) {
   std::string nav, sections;
@@ -62,10 +82,10 @@ std::string report_page(const Batch& batch, const std::string& title) {
   }
   if (!single) add_runs();
   const std::string footer = fmt::format(
-      "<p>Made by tilepress {} from frames.csv, schemes.csv and run.json of the runs above. Each value in a table "
-      "is a cell of those files, a sum of such cells, or follows from them by the formula beside it. The CSV "
-      "downloads have full precision. The line charts use uPlot 1.6.32 (MIT licence, text in the page's "
-      "source).</p>",
+      "<p>Made by tilepress {} from frames.csv, schemes.csv and run.json of the runs above. Each value in a "
+      "table is a cell of those files, a sum of such cells, or follows from them by the formula beside it. "
+      "The CSV downloads have full precision. The line charts use uPlot 1.6.32 (MIT licence, text in the "
+      "page's source).</p>",
       TILEPRESS_VERSION);
   return fill_slots(kPageTemplate, {{"version", TILEPRESS_VERSION},
                                     {"title", escape_html(title)},

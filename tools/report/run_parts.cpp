@@ -44,8 +44,7 @@ std::string pictures_html(const RunSummary& run) {
     for (const HeatMap& map : picture.heat_maps)
       out += fmt::format(
           "<div class=\"shot\"><img class=\"heat\" src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}: {:.1f} of "
-          "{} bits per block on "
-          "average, {} at most\">{}</div>",
+          "{} bits per block on average, {} at most\">{}</div>",
           map.image, picture.width, picture.height, escape_html(map.scheme), map.mean_bits, map.raw_bits,
           map.most_bits, escape_html(map.scheme));
     out += "</div></figure>\n";

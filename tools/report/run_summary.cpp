@@ -8,7 +8,6 @@
 #include <limits>
 #include <map>
 
-#include "cdf_plot.h"
 #include "html_text.h"
 #include "run_batch.h"
 
@@ -75,10 +74,8 @@ double RunSummary::rate_payload(const std::string& scheme) const {
 
 RunSummary summarise_run(const RunRecord& run, const std::string& name, size_t point_budget) {
   RunSummary out;
-  out.path = run.path;
   out.name = name;
   out.category = workload_category(run);
-  out.state = run.state;
   out.facts = facts_of(run);
   out.frames = run.frames.size();
   out.measured = run.measured_frames;

@@ -20,10 +20,8 @@ struct MeanMetrics {
 };
 
 struct RunSummary {
-  std::string path;
-  std::string name;      ///< workload
-  std::string category;  ///< empty if run.json names none
-  std::string state;
+  std::string name;                                        ///< workload
+  std::string category;                                    ///< empty if run.json names none
   std::vector<std::pair<std::string, std::string>> facts;  ///< what run.json says, for people
   uint64_t frames = 0;                                     ///< rows of frames.csv
   uint64_t measured = 0;                                   ///< of these, not warm-up

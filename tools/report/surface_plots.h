@@ -1,6 +1,7 @@
 // Surface plots: the line charts of one surface.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,15 @@ struct SurfacePlots {
 /// `max_points` values. `slug`: start of the names of CSV downloads.
 SurfacePlots plot_surface(const RunRecord& run, const std::string& slug,
                           const std::vector<const FrameStatistics*>& frames, size_t max_points);
+
+struct CdfPlot {
+  uint32_t surface = 0;
+  LinePlot plot;
+};
+
+/// One plot per surface in <run_path>/cdf.csv, with a line for each of up to six of its frames, spread
+/// evenly. The ranks are 1 … 10, then in steps of about a tenth. Every value is a cell of the file. Returns
+/// nothing without the file, or for a file of another kind.
+std::vector<CdfPlot> load_cdf_plots(const std::string& run_path, const std::string& slug);
 
 }  // namespace tilepress

@@ -6,21 +6,17 @@
 #include "sections.h"
 
 namespace tilepress {
-namespace {
 
-std::string run_link(const Batch& batch, const RunSummary& run) {
+static std::string run_link(const Batch& batch, const RunSummary& run) {
   const size_t index = static_cast<size_t>(&run - batch.runs.data());
   return fmt::format("<a href=\"#run-{0}\" data-run=\"{0}\">{1}</a>", index, escape_html(run.name));
 }
-
-}  // namespace
 
 Section workloads_section(const Batch& batch) {
   Section out{.id = "workloads", .heading = "Workloads"};
   out.note =
       "Rates are Σ raw bits / Σ moved bits over the frames of a run. Metrics are means over its frames. "
-      "Warm-up "
-      "frames (the first frame of each surface) are in neither.";
+      "Warm-up frames (the first frame of each surface) are in neither.";
   out.table.id = "table-workloads";
   out.table.caption = "One row per run";
   out.table.text_columns = 2;

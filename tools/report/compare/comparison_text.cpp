@@ -6,11 +6,63 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/compare/text_grid.h"
 #include "tilepress/csv_table.h"
 
 namespace tilepress {
 namespace {
+
+using TextRow = std::vector<std::string>;
+
+/// A table for a terminal or as Markdown.
+struct TextGrid {
+  std::string heading;  ///< empty: no heading
+  TextRow header;
+  std::vector<TextRow> rows;
+  size_t text_columns = 1;  ///< leading columns that are aligned left
+};
+
+size_t shown_width(const std::string& text) {
+  return static_cast<size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string padded(const std::string& text, size_t width, bool right) {
+  const std::string space(width - std::min(width, shown_width(text)), ' ');
+  return right ? space + text : text + space;
+}
+
+/// Columns as wide as their longest cell. UTF-8 counts by character.
+std::string grid_text(const TextGrid& grid, bool markdown) {
+  std::vector<size_t> widths;
+  for (size_t i = 0; i < grid.header.size(); ++i) {
+    size_t width = std::max<size_t>(3, shown_width(grid.header[i]));
+    for (const TextRow& row : grid.rows) width = std::max(width, shown_width(row[i]));
+    widths.push_back(width);
+  }
+  const auto line = [&](const TextRow& row) {
+    std::string out = markdown ? "|" : "";
+    for (size_t i = 0; i < row.size(); ++i) {
+      out += markdown ? " " : (i > 0 ? "  " : "");
+      out += padded(row[i], widths[i], i >= grid.text_columns);
+      if (markdown) out += " |";
+    }
+    while (!out.empty() && out.back() == ' ') out.pop_back();
+    return out + "\n";
+  };
+  std::string out;
+  if (!grid.heading.empty())
+    out = fmt::format("\n{}{}\n{}", markdown ? "### " : "", grid.heading, markdown ? "\n" : "");
+  out += line(grid.header);
+  if (markdown) {
+    out += "|";
+    for (size_t i = 0; i < widths.size(); ++i)
+      out += i < grid.text_columns ? fmt::format(" {:-<{}} |", "", widths[i])
+                                   : fmt::format(" {:->{}} |", ":", widths[i]);
+    out += "\n";
+  }
+  for (const TextRow& row : grid.rows) out += line(row);
+  return out;
+}
 
 std::string percent(double share) {
   return std::isnan(share) ? "-" : fmt::format("{:+.2f} %", share * 100);
@@ -50,9 +102,9 @@ std::vector<FramePair> chosen_frames(const SchemeComparison& scheme, bool all) {
 
 TextGrid frame_grid(const std::vector<RunComparison>& runs, bool all) {
   TextGrid grid{all ? "Frame by frame" : "Frames that differ most",
-            {"workload", "scheme", "surface", "frame", "rate A", "rate B", "change"},
-            {},
-            2};
+                {"workload", "scheme", "surface", "frame", "rate A", "rate B", "change"},
+                {},
+                2};
   for (const RunComparison& run : runs)
     for (const SchemeComparison& scheme : run.schemes)
       for (const FramePair& pair : chosen_frames(scheme, all))
@@ -113,8 +165,10 @@ std::vector<std::string> comparison_remarks(const RunComparison& run) {
   if (run.different_pictures > 0)
     out.push_back(fmt::format("not the same pictures: colours differ in {} of {} frames",
                               run.different_pictures, run.common));
-  if (!run.schemes_only_a.empty()) out.push_back(fmt::format("schemes only in A: {}", fmt::join(run.schemes_only_a, " ")));
-  if (!run.schemes_only_b.empty()) out.push_back(fmt::format("schemes only in B: {}", fmt::join(run.schemes_only_b, " ")));
+  if (!run.schemes_only_a.empty())
+    out.push_back(fmt::format("schemes only in A: {}", fmt::join(run.schemes_only_a, " ")));
+  if (!run.schemes_only_b.empty())
+    out.push_back(fmt::format("schemes only in B: {}", fmt::join(run.schemes_only_b, " ")));
   return out;
 }
 

@@ -37,8 +37,6 @@ std::vector<std::string> missing_from(const std::vector<std::string>& others,
 
 RunComparison compare_runs(const RunRecord& a, const RunRecord& b, const FrameSet& frames) {
   RunComparison out;
-  out.path_a = a.path;
-  out.path_b = b.path;
   out.schemes_only_a = missing_from(b.scheme_names, a.scheme_names);
   out.schemes_only_b = missing_from(a.scheme_names, b.scheme_names);
 

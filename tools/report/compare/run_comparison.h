@@ -26,17 +26,13 @@ struct SchemeComparison {
 };
 
 struct RunComparison {
-  std::string name;  ///< workload
-  std::string path_a, path_b;
+  std::string name;                 ///< workload
   uint64_t common = 0;              ///< measured frames compared
   uint64_t only_a = 0, only_b = 0;  ///< measured frames that the other run lacks
   /// Common frames whose size or content metrics (colours, entropy) differ: not the same pictures.
   uint64_t different_pictures = 0;
   std::vector<std::string> schemes_only_a, schemes_only_b;
   std::vector<SchemeComparison> schemes;
-
-  /// Both runs have the same frames of the same pictures.
-  bool same_frames() const { return only_a == 0 && only_b == 0 && different_pictures == 0; }
 };
 
 /// Compares the frames of `frames` (all if it is every frame).

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "report/category_bars.h"
 #include "report/published_means.h"
 #include "report/scheme_names.h"
 #include "study/figures/study_tables.h"

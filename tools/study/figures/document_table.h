@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "report/html_table.h"
+#include "report/html_text.h"
 
 namespace tilepress {
 
