@@ -2,13 +2,56 @@
 #include "command_line.h"
 
 #include <cstdio>
+#include <cstring>
 #include <memory>
-#include <string>
 
-#include "toml_config.h"
+#define TOML_EXCEPTIONS 1
+#include <toml++/toml.h>
 
 namespace tilepress {
 namespace {
+
+std::string scalar_text(const toml::node& node, const std::string& key) {
+  if (auto text = node.value<std::string>(); node.is_string()) return *text;
+  if (auto flag = node.value<bool>(); node.is_boolean()) return *flag ? "true" : "false";
+  if (auto number = node.value<int64_t>(); node.is_integer()) return std::to_string(*number);
+  if (auto number = node.value<double>(); node.is_floating_point()) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << *number;
+    return text.str();
+  }
+  throw CLI::ConfigError("config: " + key + ": must be text, a number, true, false, or a list of these");
+}
+
+/// Reads top-level keys as long option names: strings, numbers, booleans, and arrays for repeatable options.
+class TomlConfig : public CLI::Config {
+ public:
+  std::string to_config(const CLI::App*, bool, bool, std::string) const override { return {}; }
+  /// Throws CLI::ConfigError, which names the line or the key.
+  std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
+    toml::table table;
+    try {
+      table = toml::parse(input);
+    } catch (const toml::parse_error& error) {
+      throw CLI::ConfigError("config: line " + std::to_string(error.source().begin.line) + ": " +
+                             std::string(error.description()));
+    }
+    std::vector<CLI::ConfigItem> found;
+    for (const auto& [key_node, node] : table) {
+      const std::string key(key_node.str());
+      CLI::ConfigItem item;
+      item.name = key;
+      if (const toml::array* list = node.as_array()) {
+        for (const toml::node& element : *list) item.inputs.push_back(scalar_text(element, key));
+      } else {
+        item.inputs.push_back(scalar_text(node, key));
+      }
+      found.push_back(std::move(item));
+    }
+    return found;
+  }
+};
 
 /// What CLI11 says, or a clearer text where there is one.
 std::string describe(const CLI::App& app, const CLI::ParseError& error) {
@@ -40,6 +83,26 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(kExitUsage, describe(app, error));
   }
+  return std::nullopt;
+}
+
+std::optional<int> parse_launch_line(CLI::App& app, int argc, char** argv,
+                                     std::vector<std::string>& program) {
+  app.get_formatter()->label("OPTIONS", "OPTIONS] -- PROGRAM [ARGS...");  // CLI11 adds the outer brackets
+  app.prefix_command();
+  int own = 1;
+  while (own < argc && std::strcmp(argv[own], "--") != 0) ++own;
+  if (auto status = parse_command_line(app, own, argv)) return status;
+  program = app.remaining();
+  const auto refuse = [](const std::string& word) {
+    return fail(kExitUsage,
+                (word.starts_with("-") ? "unknown option '" : "unexpected argument '") + word + "'");
+  };
+  if (own < argc && !program.empty()) return refuse(program.front());
+  for (int i = own + 1; i < argc; ++i) program.emplace_back(argv[i]);
+  if (program.empty())
+    return fail(kExitUsage, std::string("no program given (see tilepress ") + argv[0] + " --help)");
+  if (own == argc && program.front().starts_with("-")) return refuse(program.front());
   return std::nullopt;
 }
 

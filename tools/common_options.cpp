@@ -1,7 +1,6 @@
 // Common options: CLI11 options made from the table of run options.
 #include "common_options.h"
 
-#include <string>
 #include <vector>
 
 #include "tilepress/run_option_table.h"
@@ -90,6 +89,18 @@ CLI::Option* add_frames_option(CLI::App& app, FrameSet& frames, const std::strin
           },
           help.empty() ? std::string(option.help) : help)
       ->type_name(std::string(option.metavar));
+}
+
+void add_read_options(CLI::App& app, ReadOptions& options) {
+  app.add_option("--csb-lines", options.csb_lines,
+                 "Lines of the CSB cache, 0 = none (default: " + std::to_string(options.csb_lines) + ")")
+      ->type_name("N")
+      ->check(CLI::Range(0, 65536));
+  app.add_option(
+         "--csb-line-bursts", options.csb_line_bursts,
+         "Bursts in a line of the CSB cache (default: " + std::to_string(options.csb_line_bursts) + ")")
+      ->type_name("N")
+      ->check(CLI::Range(1, 65536));
 }
 
 }  // namespace tilepress

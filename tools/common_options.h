@@ -8,6 +8,7 @@
 
 #include "frames/image_frames.h"
 #include "tilepress/run_options.h"
+#include "tilepress/surface_reader.h"
 
 namespace tilepress {
 
@@ -33,5 +34,8 @@ void add_size_option(CLI::App& app, const std::string& name, std::optional<Frame
 /// Adds --NAME RANGES, for verbs without a run's other options.
 CLI::Option* add_frames_option(CLI::App& app, FrameSet& frames, const std::string& name = "frames",
                                const std::string& help = "");
+
+/// Adds --csb-lines and --csb-line-bursts, for verbs that read compressed surfaces.
+void add_read_options(CLI::App& app, ReadOptions& options);
 
 }  // namespace tilepress

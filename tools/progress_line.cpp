@@ -6,21 +6,18 @@
 
 #include <nlohmann/json.hpp>
 
-#include "choice_option.h"
+#include "command_line.h"
 #include "streams/messages.h"
 
 namespace tilepress {
-namespace {
 
 constexpr std::chrono::milliseconds kPeriod{100};
 
-std::string duration_text(double seconds) {
+static std::string duration_text(double seconds) {
   const auto whole = static_cast<uint64_t>(seconds + 0.5);
   if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
-
-}  // namespace
 
 void add_progress_option(CLI::App& app, ProgressMode& mode) {
   add_choice_option<ProgressMode>(

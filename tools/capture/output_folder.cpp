@@ -7,11 +7,8 @@
 #include <filesystem>
 
 namespace tilepress {
-namespace {
 
 namespace fs = std::filesystem;
-
-}  // namespace
 
 std::string absolute_folder(const std::string& folder) {
   std::error_code code;

@@ -1,7 +1,7 @@
 // Replay choices: words of a retracer and of a display.
 #include "capture/replay_choices.h"
 
-#include "choice_option.h"
+#include "command_line.h"
 
 namespace tilepress {
 

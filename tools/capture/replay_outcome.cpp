@@ -9,13 +9,10 @@
 #include "streams/messages.h"
 
 namespace tilepress {
-namespace {
 
-bool is_good(const ReplayResult& result) {
+static bool is_good(const ReplayResult& result) {
   return result.status == ReplayStatus::kDone || result.status == ReplayStatus::kKept;
 }
-
-}  // namespace
 
 std::string interruption_text(const ReplayBatch& batch) {
   std::string done, cut, waiting;

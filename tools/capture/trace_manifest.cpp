@@ -1,7 +1,6 @@
 // Trace manifest: toml++ reads the file, and every key is checked.
 #include "capture/trace_manifest.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #define TOML_EXCEPTIONS 0

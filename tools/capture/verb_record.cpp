@@ -4,8 +4,7 @@
 #include <filesystem>
 
 #include "capture/child_process.h"
-#include "capture/launch_line.h"
-#include "choice_option.h"
+#include "command_line.h"
 #include "counted.h"
 #include "printable.h"
 #include "tilepress/program_api.h"

@@ -1,13 +1,12 @@
 // tilepress run: a program under the shim, its own input, output and exit status passed through.
 #include <fmt/format.h>
 
-#include "capture/launch_line.h"
 #include "capture/nothing_captured.h"
 #include "capture/output_folder.h"
 #include "capture/overhead_rounds.h"
 #include "capture/program_launch.h"
 #include "capture/shim_launch.h"
-#include "choice_option.h"
+#include "command_line.h"
 #include "common_options.h"
 #include "counted.h"
 #include "tilepress/program_search.h"

@@ -2,7 +2,6 @@
 #include "frames/dumped_frames.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,10 +12,10 @@
 #include "tilepress/run_reader.h"
 
 namespace tilepress {
-namespace {
+
 namespace fs = std::filesystem;
 
-Result<void> write_png(const fs::path& raw, const fs::path& png, const FrameStatistics& frame) {
+static Result<void> write_png(const fs::path& raw, const fs::path& png, const FrameStatistics& frame) {
   std::ifstream file(raw, std::ios::binary);
   const std::vector<char> bytes(std::istreambuf_iterator<char>(file), {});
   if (bytes.size() != size_t{frame.width} * frame.height * 4)
@@ -38,8 +37,6 @@ Result<void> write_png(const fs::path& raw, const fs::path& png, const FrameStat
   fs::remove(partial, code);
   return about(png.string(), done.error());
 }
-
-}  // namespace
 
 Result<void> convert_dumped_frames(const std::string& run_path) {
   const fs::path folder = fs::path(run_path) / "frames";

@@ -1,14 +1,31 @@
-// Frame size: width and height in pixels, as "720x1280" on the command line.
+// Frame size: width and height in pixels, and lists of numbers as "720x1280" on the command line.
 #pragma once
 
+#include <array>
+#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
-#include "frames/number_list.h"
 #include "tilepress/surface.h"
 
 namespace tilepress {
+
+/// Parses N whole numbers with `separator` between them. Returns nothing for any other text.
+template <class T, size_t N>
+std::optional<std::array<T, N>> parse_numbers(std::string_view text, char separator) {
+  std::array<T, N> numbers{};
+  const char *at = text.data(), *end = at + text.size();
+  for (size_t i = 0; i < N; ++i) {
+    const auto [next, status] = std::from_chars(at, end, numbers[i]);
+    const bool last = i + 1 == N;
+    if (status != std::errc() || (last ? next != end : next == end || *next != separator))
+      return std::nullopt;
+    at = last ? next : next + 1;
+  }
+  return numbers;
+}
 
 struct FrameSize {
   uint32_t width = 0, height = 0;

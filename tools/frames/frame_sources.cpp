@@ -14,7 +14,7 @@
 #include "images/image_library.h"
 #include "streams/ending_signals.h"
 #include "streams/messages.h"
-#include "streams/quiet_standard_error.h"
+#include "streams/standard_streams.h"
 
 namespace tilepress {
 namespace {

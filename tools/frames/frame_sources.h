@@ -26,7 +26,6 @@ struct FrameSource {
   std::shared_ptr<Pipe> pipe;                     ///< a raw pipe, or what keeps the file at `path` open
   std::shared_ptr<const FrameCacheReader> cache;  ///< the open file of a cached frame
 
-  bool is_raw() const { return kind == Kind::kRawFile || kind == Kind::kRawPipe; }
   /// The frames come in order, each once; their number is not known before.
   bool is_stream() const { return kind == Kind::kSequence || kind == Kind::kRawPipe; }
 };

@@ -7,8 +7,8 @@
 
 #include "frames/cdf_file.h"
 #include "frames/image_frames.h"
-#include "frames/row_sink.h"
 #include "progress_line.h"
+#include "tilepress/run_directory.h"
 #include "tilepress/run_reader.h"
 
 namespace tilepress {
@@ -26,6 +26,22 @@ struct FramesOptions {
   bool quiet = false;
   bool wants_cdf(uint64_t frame) const { return !cdf_path.empty() && cdf_frames.contains(frame); }
   bool to_stdout() const { return run.output == "-"; }
+};
+
+/// Where the rows go: a run directory or standard output.
+class RowSink {
+ public:
+  /// `options.output` is the run directory, or "-" for schemes.csv on standard output. With `force` the run
+  /// in the directory is replaced.
+  Result<void> open(const RunOptions& options, const RunInfo& info, bool force);
+  Result<void> append(const FrameStatistics& frame);
+  /// Closes a run directory. `reason`: why the state is not "finished".
+  Result<void> finish(const RunCounts& counts, const std::string& state, const std::string& reason);
+
+ private:
+  RunWriter writer_;
+  std::vector<std::string> scheme_names_;
+  std::string text_;
 };
 
 class FramesRun {

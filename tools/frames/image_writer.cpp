@@ -8,18 +8,15 @@
 #include "streams/output_file.h"
 
 namespace tilepress {
-namespace {
 
 /// Widens a channel from `from` to `to` bits by repeating its bits from the top: 0 stays 0, full stays full.
-uint32_t widen(uint32_t value, uint32_t from, uint32_t to) {
+static uint32_t widen(uint32_t value, uint32_t from, uint32_t to) {
   uint32_t wide = 0;
   for (int32_t shift = static_cast<int32_t>(to - from); shift > -static_cast<int32_t>(from);
        shift -= static_cast<int32_t>(from))
     wide |= shift >= 0 ? value << shift : value >> -shift;
   return wide;
 }
-
-}  // namespace
 
 std::string native_bytes(std::span<const uint32_t> words, PixelFormat format) {
   const size_t pixel_bytes = traits(format).pixel_bits / 8;

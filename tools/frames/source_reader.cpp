@@ -9,7 +9,7 @@
 
 #include "frames/piped_file.h"
 #include "images/image_errors.h"
-#include "streams/quiet_standard_error.h"
+#include "streams/standard_streams.h"
 
 namespace tilepress {
 namespace {

@@ -6,10 +6,9 @@
 #include "command_line.h"
 #include "common_options.h"
 #include "counted.h"
-#include "frames/composed_reads.h"
-#include "frames/number_list.h"
+#include "frames/composition.h"
+#include "frames/frame_size.h"
 #include "frames/packed_reader.h"
-#include "frames/read_options.h"
 #include "streams/output_file.h"
 #include "verb.h"
 
@@ -134,8 +133,7 @@ int compose(ComposeOptions& options) {
   if (out.is_open())
     if (const auto done = out.commit(); !done) return fail(kExitFailed, done.error());
   summary.without_first = summary.frames < *taken;
-  if (!options.quiet && summary.frames > 0)
-    show(composed_table(summary, options.composition));
+  if (!options.quiet && summary.frames > 0) show(composed_table(summary, options.composition));
   return kExitDone;
 }
 

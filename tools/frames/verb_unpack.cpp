@@ -9,7 +9,6 @@
 #include "counted.h"
 #include "frames/image_writer.h"
 #include "frames/packed_reader.h"
-#include "frames/read_options.h"
 #include "streams/output_file.h"
 #include "tilepress/csv_table.h"
 #include "tilepress/run_options.h"
@@ -38,6 +37,12 @@ struct UnpackOptions {
   bool force = false;
   bool quiet = false;
 };
+
+std::optional<PixelRect> parse_rect(const std::string& text) {
+  const auto values = parse_numbers<uint32_t, 4>(text, ',');
+  if (!values || (*values)[2] == 0 || (*values)[3] == 0) return std::nullopt;
+  return PixelRect{(*values)[0], (*values)[1], (*values)[2], (*values)[3]};
+}
 
 struct Part {
   uint32_t number = 0;

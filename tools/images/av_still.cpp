@@ -1,5 +1,5 @@
 // AV still: a whole file is one packet for a decoder of libavcodec.
-#include "images/av_still.h"
+#include "images/image_readers.h"
 
 #include <cstring>
 #include <fstream>

@@ -1,5 +1,5 @@
 // GIF image: giflib decodes the parts, this file composes them.
-#include "images/gif_image.h"
+#include "images/image_readers.h"
 
 #include <gif_lib.h>
 

@@ -6,9 +6,8 @@
 #include "capture/shim_path.h"
 
 namespace tilepress {
-namespace {
 
-Result<const ImageLibrary*> load() {
+static Result<const ImageLibrary*> load() {
   const auto path = find_shim("libtilepress-images.so");
   if (!path) return path.error();
   void* module = dlopen(path->c_str(), RTLD_LAZY | RTLD_LOCAL);
@@ -18,8 +17,6 @@ Result<const ImageLibrary*> load() {
   if (function == nullptr) return Error{ErrorKind::kSystem, dlerror()};
   return function();
 }
-
-}  // namespace
 
 Result<const ImageLibrary*> image_library() {
   static const Result<const ImageLibrary*> loaded = load();

@@ -1,5 +1,5 @@
 // JPEG image: libjpeg, where missing or damaged data is an error.
-#include "images/jpeg_image.h"
+#include "images/image_readers.h"
 
 #include <csetjmp>
 #include <cstdint>

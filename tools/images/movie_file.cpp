@@ -1,5 +1,5 @@
 // Movie file: every frame that the decoder gives, each once, whatever its time stamp.
-#include "images/movie_file.h"
+#include "images/image_readers.h"
 
 #include <algorithm>
 #include <cstring>

@@ -4,14 +4,10 @@
 
 #include <fstream>
 
-#include "images/av_still.h"
-#include "images/gif_image.h"
 #include "images/image_errors.h"
 #include "images/image_kind.h"
 #include "images/image_library.h"
-#include "images/jpeg_image.h"
-#include "images/movie_file.h"
-#include "images/webp_image.h"
+#include "images/image_readers.h"
 
 namespace tilepress {
 namespace {

@@ -1,7 +1,7 @@
 // Open image: libpng reads PNG files; the module reads the others.
 #include "images/image_kind.h"
 #include "images/image_library.h"
-#include "images/png_image.h"
+#include "images/image_readers.h"
 
 namespace tilepress {
 

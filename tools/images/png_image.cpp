@@ -1,5 +1,5 @@
 // PNG image: libpng, which expands samples to 8 bits and changes nothing else.
-#include "images/png_image.h"
+#include "images/image_readers.h"
 
 #include <png.h>
 #include <sys/stat.h>

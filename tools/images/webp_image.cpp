@@ -1,5 +1,5 @@
 // WebP image: libwebp decodes and composes; alpha stays as it is stored.
-#include "images/webp_image.h"
+#include "images/image_readers.h"
 
 #include <webp/decode.h>
 #include <webp/demux.h>

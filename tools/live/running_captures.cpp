@@ -8,12 +8,12 @@
 #include "tilepress/run_lock.h"
 
 namespace tilepress {
-namespace {
+
 namespace fs = std::filesystem;
 
 constexpr int kMaxDepth = 4;
 
-void look(const fs::path& folder, int depth, std::vector<std::string>& out) {
+static void look(const fs::path& folder, int depth, std::vector<std::string>& out) {
   std::error_code code;
   if (fs::exists(folder / kLiveFile, code)) {
     out.push_back(folder.string());
@@ -25,8 +25,6 @@ void look(const fs::path& folder, int depth, std::vector<std::string>& out) {
     if (std::error_code kind; entry->is_directory(kind) && !entry->is_symlink(kind))
       look(entry->path(), depth + 1, out);
 }
-
-}  // namespace
 
 std::vector<std::string> find_running_captures(const std::vector<std::string>& folders) {
   std::vector<std::string> out;

@@ -4,12 +4,10 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "capture/shim_path.h"
-#include "choice_option.h"
 #include "command_line.h"
 #include "frames/image_frames.h"
 #include "live/view/view_request.h"
@@ -17,7 +15,6 @@
 #include "verb.h"
 
 namespace tilepress {
-namespace {
 
 constexpr const char* kWindow = "tilepress-view";
 
@@ -25,8 +22,6 @@ constexpr const char* kKeys =
     "Keys: arrows or 1..9 scheme, h heat map, space freeze, + - zoom, f fit, Tab next capture, ? help,\n"
     "q quit. The captured program goes on when the window is closed or killed. The window is never part\n"
     "of a frame.\n";
-
-}  // namespace
 
 int verb_view(int argc, char** argv) {
   ViewRequest request;

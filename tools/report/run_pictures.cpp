@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
-#include <sstream>
 
 #include "images/image_library.h"
-#include "images/png_image.h"
+#include "images/image_readers.h"
 #include "live/heat_colors.h"
 
 namespace tilepress {

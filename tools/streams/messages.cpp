@@ -11,7 +11,7 @@
 #include <mutex>
 #include <string>
 
-#include "streams/quiet_standard_error.h"
+#include "streams/standard_streams.h"
 
 namespace tilepress {
 namespace {

@@ -1,7 +1,6 @@
 // Output file: what a verb writes to the FILE of -o, whole or not at all. Error texts begin with the file.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -6,9 +6,11 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
 
 namespace tilepress {
 namespace {
@@ -16,6 +18,10 @@ namespace {
 int first_error = 0;  ///< errno of the first write that failed
 bool failed = false;
 struct sigaction callers_sigpipe;
+
+std::mutex guard;
+int holders = 0;             ///< standard error leads nowhere from the first to the last
+std::atomic<int> kept = -1;  ///< a copy of the true standard error, made once
 
 /// stdio keeps only the error of the last write. Returns fewer than `count` bytes on failure.
 ssize_t write_noting_errors(void*, const char* bytes, size_t count) {
@@ -68,6 +74,25 @@ Result<void> flush_standard_output() {
 
 bool standard_output_has_failed() {
   return failed;
+}
+
+QuietStandardError::QuietStandardError() {
+  const std::lock_guard lock(guard);
+  if (holders++ > 0) return;
+  if (kept < 0) kept = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (kept >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
+  if (nowhere >= 0) close(nowhere);
+}
+
+QuietStandardError::~QuietStandardError() {
+  const std::lock_guard lock(guard);
+  if (--holders == 0 && kept >= 0) dup2(kept, STDERR_FILENO);
+}
+
+int true_standard_error() {
+  const int fd = kept;
+  return fd >= 0 ? fd : STDERR_FILENO;
 }
 
 }  // namespace tilepress

@@ -21,4 +21,17 @@ Result<void> flush_standard_output();
 /// Whether flush_standard_output() has failed before.
 bool standard_output_has_failed();
 
+/// Keeps image libraries from printing the errors that they also return: standard error leads nowhere while
+/// any of these objects lives, in any thread.
+class QuietStandardError {
+ public:
+  QuietStandardError();
+  ~QuietStandardError();
+  QuietStandardError(const QuietStandardError&) = delete;
+  QuietStandardError& operator=(const QuietStandardError&) = delete;
+};
+
+/// The descriptor of the true standard error, whether it is quiet or not. Async-signal-safe.
+int true_standard_error();
+
 }  // namespace tilepress

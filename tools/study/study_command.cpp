@@ -8,14 +8,12 @@
 #include <fmt/format.h>
 
 #include "capture/shim_launch.h"
-#include "choice_option.h"
 #include "command_line.h"
 #include "counted.h"
 #include "streams/ending_signals.h"
 #include "study/figures/study_outputs.h"
 #include "study/study_tables.h"
 #include "study/study_run.h"
-#include "temporary_folder.h"
 
 namespace tilepress {
 namespace {

@@ -7,11 +7,8 @@
 #include "live/running_captures.h"
 
 namespace tilepress {
-namespace {
 
 constexpr std::chrono::milliseconds kAskPeriod{500}, kLookPeriod{500}, kNumbersPeriod{500};
-
-}  // namespace
 
 bool CaptureWatch::attach(const std::string& path) {
   auto reader = std::make_unique<LiveReader>();

@@ -9,7 +9,6 @@
 #include "live/heat_colors.h"
 
 namespace tilepress {
-namespace {
 
 constexpr CanvasColor kPanel{28, 30, 34}, kText{222, 224, 228}, kDim{150, 154, 162}, kMarked{255, 221, 87},
     kRow{58, 64, 76}, kEdge{70, 74, 82};
@@ -26,12 +25,10 @@ constexpr const char* kHelp[] = {"left right up down   scheme before, after",
                                  "? F1                 this help",
                                  "q Esc                quit; the program goes on"};
 
-std::string cut(std::string text, size_t columns) {
+static std::string cut(std::string text, size_t columns) {
   if (text.size() > columns) text = text.substr(0, columns - 1) + '\xBB';  // », the text is cut
   return text;
 }
-
-}  // namespace
 
 std::optional<PointedBlock> block_under(const LivePicture& picture, const ViewRect& place, double x,
                                         double y) {

@@ -7,11 +7,8 @@
 #include "tilepress/pixel_format.h"
 
 namespace tilepress {
-namespace {
 
 constexpr double kLeastAlpha = 70, kMoreAlpha = 130;
-
-}  // namespace
 
 ScreenImage frame_image(const LivePicture& picture, uint32_t longest_side) {
   const LivePictureHead& head = picture.head;

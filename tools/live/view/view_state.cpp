@@ -5,11 +5,10 @@
 #include <cmath>
 
 namespace tilepress {
-namespace {
 
 constexpr double kSteps[] = {0.0625, 0.125, 0.25, 0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32};
 
-double step_from(double zoom, double steps) {
+static double step_from(double zoom, double steps) {
   for (; steps >= 1; --steps) {
     const auto* next = std::upper_bound(std::begin(kSteps), std::end(kSteps), zoom + 1e-9);
     if (next != std::end(kSteps)) zoom = *next;
@@ -20,8 +19,6 @@ double step_from(double zoom, double steps) {
   }
   return zoom;
 }
-
-}  // namespace
 
 void ViewState::choose_scheme(size_t index, size_t scheme_count) {
   if (index < scheme_count) scheme = index;

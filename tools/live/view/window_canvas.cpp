@@ -7,8 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include "live/view/embedded_font.h"
-
 // The library's header has unused functions and conversions.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -18,6 +16,9 @@
 #define STB_TRUETYPE_IMPLEMENTATION
 #include <stb/stb_truetype.h>
 #pragma GCC diagnostic pop
+
+/// DejaVu Sans Mono, taken from Debian's package when the window is built.
+extern "C" const unsigned char kEmbeddedFont[];
 
 namespace tilepress {
 namespace {
