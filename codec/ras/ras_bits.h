@@ -13,7 +13,10 @@ namespace tilepress {
 /// Counts a block anew only if its pixels changed since the frame before.
 class RasBits final : public BlockAnalysis {
  public:
-  explicit RasBits(const FormatTraits& format) : format_(format) {}
+  explicit RasBits(const FormatTraits& format) : format_(format) {
+    for (const bool ycocg : {false, true})
+      streams_[ycocg].beside_groups = ras_bits_beside_groups(format, ycocg);
+  }
 
   /// Subscribes to the stream of the RGBA or the YCoCg-R planes. The number referred to is that of the block
   /// at hand, not rounded.
@@ -31,20 +34,23 @@ class RasBits final : public BlockAnalysis {
   void see_block(const BlockContext& block) override {
     for (const bool ycocg : {false, true})
       if (Stream& stream = streams_[ycocg]; stream.wanted)
-        stream.bits = block.uniform ? ras_uniform_bits(format_, ycocg) : count(block, ycocg, stream.known);
+        stream.bits =
+            static_cast<uint32_t>(stream.beside_groups + (block.uniform ? 4 * int32_t{kRasZeroPlaneBits}
+                                                                        : count(block, ycocg, stream.known)));
   }
 
  private:
   struct Stream {
     bool wanted = false;
     uint32_t bits = 0;
-    std::vector<uint16_t> known;  ///< by block, but not for blocks of one colour
+    int32_t beside_groups = 0;
+    std::vector<uint16_t> known;  ///< ras_group_bits by block, but not for blocks of one colour
   };
-  uint32_t count(const BlockContext& block, bool ycocg, std::vector<uint16_t>& known) const {
+  int32_t count(const BlockContext& block, bool ycocg, std::vector<uint16_t>& known) const {
     const size_t number = size_t{block.by} * plane_->blocks_x() + block.bx;
     if (changed_blocks_[number] != 0) {
       const uint32_t* top_left = plane_->row(block.by * kBlockSide) + block.bx * kBlockSide;
-      known[number] = static_cast<uint16_t>(ras_stream_bits(top_left, plane_->stride(), format_, ycocg));
+      known[number] = static_cast<uint16_t>(ras_group_bits(top_left, plane_->stride(), format_, ycocg));
     }
     return known[number];
   }

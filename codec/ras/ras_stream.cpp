@@ -86,13 +86,12 @@ void load_samples(const uint32_t* top_left, uint32_t stride, const FormatTraits&
   fill_ras_border(samples);
 }
 
-constexpr uint32_t kZeroPlaneBits = kSubBlocks * 3;
-
-/// Returns the bits of a stream whose groups of four planes take `group_bits`. An absent plane has zeros
-/// only.
-uint32_t stream_bits(uint32_t group_bits, const PlaneWidths& planes) {
-  for (uint32_t p = 0; p < planes.count; ++p) group_bits += planes.first_bits[p];
-  return group_bits - (4 - planes.count) * kZeroPlaneBits;
+/// See ras_bits_beside_groups.
+int32_t bits_beside_groups(const PlaneWidths& planes) {
+  int32_t bits = 0;
+  for (uint32_t p = 0; p < 4; ++p)
+    bits += p < planes.count ? planes.first_bits[p] : -static_cast<int32_t>(kRasZeroPlaneBits);
+  return bits;
 }
 
 /// A BitWriter without branches. It begins at a byte and may write up to eight bytes past its bits.
@@ -141,14 +140,14 @@ void write_planes(const int16_t* first, const RasGroups& groups, const PlaneWidt
 
 }  // namespace
 
-uint32_t ras_stream_bits(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg) {
-  int16_t samples[kRasSamples];
-  load_samples(top_left, stride, format, ycocg, samples);
-  return stream_bits(ras_kernels().code_bits(samples), plane_widths(format, ycocg));
+int32_t ras_bits_beside_groups(const FormatTraits& format, bool ycocg) {
+  return bits_beside_groups(plane_widths(format, ycocg));
 }
 
-uint32_t ras_uniform_bits(const FormatTraits& format, bool ycocg) {
-  return stream_bits(4 * kZeroPlaneBits, plane_widths(format, ycocg));
+uint32_t ras_group_bits(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg) {
+  int16_t samples[kRasSamples];
+  load_samples(top_left, stride, format, ycocg, samples);
+  return ras_kernels().code_bits(samples);
 }
 
 void ras_stream_write(const Block& block, const FormatTraits& format, bool ycocg, BitWriter& out) {
@@ -158,7 +157,8 @@ void ras_stream_write(const Block& block, const FormatTraits& format, bool ycocg
   ras_kernels().groups(samples, groups);
   const PlaneWidths planes = plane_widths(format, ycocg);
   const int16_t* first = samples + ras_sample_index(0, 0);
-  const uint32_t bits = stream_bits(std::accumulate(groups.lengths, std::end(groups.lengths), 0u), planes);
+  const auto bits = static_cast<uint32_t>(
+      std::accumulate(groups.lengths, std::end(groups.lengths), bits_beside_groups(planes)));
   if (uint8_t* to = out.at_byte(bits / 8 + 9)) {
     RoomyWriter writer(to);
     write_planes(first, groups, planes, writer);

@@ -15,11 +15,14 @@
 
 namespace tilepress {
 
-/// Returns the bits of the stream of the 8×8 block at `top_left`, not rounded. A row of the plane has
-/// `stride` words.
-uint32_t ras_stream_bits(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg);
-/// Returns the same for a block of one colour: first pixels and 3 bits per group.
-uint32_t ras_uniform_bits(const FormatTraits& format, bool ycocg);
+/// Bits of the groups of a plane whose residuals are all zero.
+constexpr uint32_t kRasZeroPlaneBits = kSubBlocks * 3;
+/// Returns the bits of the groups of four planes of the 8×8 block at `top_left`. An absent plane counts as
+/// one of zeros. A row of the plane of pixels has `stride` words.
+uint32_t ras_group_bits(const uint32_t* top_left, uint32_t stride, const FormatTraits& format, bool ycocg);
+/// Returns the bits of a stream beside ras_group_bits: its first pixels, less the groups of absent planes.
+/// May be negative.
+int32_t ras_bits_beside_groups(const FormatTraits& format, bool ycocg);
 void ras_stream_write(const Block& block, const FormatTraits& format, bool ycocg, BitWriter& out);
 /// Returns false if no encoder writes these bits.
 bool ras_stream_read(BitReader& in, const FormatTraits& format, bool ycocg, Block& out);

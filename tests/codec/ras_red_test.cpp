@@ -5,8 +5,8 @@
 
 #include "block_harness.h"
 #include "ras/ras_classes.h"
-#include "ras/ras_stream.h"
 #include "ras/ras_samples.h"
+#include "ras/ras_stream.h"
 #include "tilepress/simd.h"
 
 using namespace harness;
@@ -21,8 +21,12 @@ Block red_ramp() {
 
 const FormatTraits& kRgba = traits(PixelFormat::kRgba8);
 
+uint32_t stream_bits(const Block& block, const FormatTraits& format, bool ycocg) {
+  const uint32_t groups = ras_group_bits(block.pixels.data(), kBlockSide, format, ycocg);
+  return groups + static_cast<uint32_t>(ras_bits_beside_groups(format, ycocg));
+}
 uint32_t stream_bits(const Block& block, bool ycocg) {
-  return ras_stream_bits(block.pixels.data(), kBlockSide, kRgba, ycocg);
+  return stream_bits(block, kRgba, ycocg);
 }
 
 }  // namespace
@@ -83,7 +87,7 @@ TEST(RasStream, IsTheSameWhereverItBegins) {
         Block block, read;
         const uint32_t mask = (1u << dice.below(11)) - 1;
         for (uint32_t& word : block.pixels) word = (dice.next() & mask * 0x00100401u) | 0x80000000u;
-        const uint32_t bits = ras_stream_bits(block.pixels.data(), kBlockSide, format, ycocg);
+        const uint32_t bits = stream_bits(block, format, ycocg);
         for (const uint32_t before : {0u, 3u}) {
           std::vector<uint8_t> bytes((before + bits + 7) / 8 + (round % 2 != 0 ? 16 : 0));
           BitWriter writer(bytes);
