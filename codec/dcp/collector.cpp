@@ -42,7 +42,12 @@ void Collector::see(const SeenPixels& seen) {
   if (!fast_) return fvc_.see_all(seen.pixels, seen.count);
   if (takes_all_) return fast_->see(seen);
   uint32_t at = until_sample_;  // behind the next pixel to take
-  for (; at <= seen.count; at += fvc_.config().sample) fast_->see_run(seen.pixels[at - 1], 1);
+  while (at <= seen.count) {
+    const uint32_t color = seen.pixels[at - 1];
+    uint32_t count = 0;
+    for (; at <= seen.count && seen.pixels[at - 1] == color; at += fvc_.config().sample) ++count;
+    fast_->see_run(color, count);
+  }
   until_sample_ = at - seen.count;
 }
 

@@ -11,13 +11,15 @@
 
 namespace tilepress {
 
-/// A cuckoo hash table of two halves, at most a quarter full: a colour is at its place in either half.
+/// A cuckoo hash table of two halves, at most a quarter full, and less if it is small: a colour is at its
+/// place in either half.
 class ColorMap {
  public:
   static constexpr uint32_t kAbsent = 0xFFFFFFFF;
 
   explicit ColorMap(uint32_t most_colors)
-      : places_(size_t{most_colors} * 4), shift_(34 - static_cast<uint32_t>(std::bit_width(places_.size()))) {
+      : places_(size_t{most_colors} * (most_colors <= 256 ? 16 : 4)),
+        shift_(34 - static_cast<uint32_t>(std::bit_width(places_.size()))) {
     clear();
   }
   void clear() { std::fill(places_.begin(), places_.end(), Place{0, kAbsent}); }
@@ -48,8 +50,9 @@ class ColorMap {
   /// if the chain does not end; `moving` is the colour left then.
   bool place(Place& moving) {
     constexpr uint32_t kMoves = 64;
-    if (Place& second = places_[place_of(moving.color, 1)]; second.slot == kAbsent) {
-      second = moving;
+    Place &first = places_[place_of(moving.color, 0)], &second = places_[place_of(moving.color, 1)];
+    if (Place& either = second.slot == kAbsent ? second : first; either.slot == kAbsent) {
+      either = moving;
       return true;
     }
     for (uint32_t move = 0; move < kMoves && moving.slot != kAbsent; ++move)
