@@ -10,12 +10,27 @@ constexpr uint32_t kPlanes = 33;
 constexpr uint32_t kAllOnes = 0x7FFFFFFF;  ///< 31 deltas
 using Planes = std::array<uint32_t, kPlanes>;
 
+/// Swaps rows and columns of 32×32 bits: bit c of rows[r] is bit r of rows[c] before. Each step swaps two
+/// quarters of squares half as large as the step before.
+void transpose(uint32_t* rows) {
+  uint32_t low = 0x0000FFFF;
+  for (uint32_t side = 16; side != 0; side /= 2, low ^= low << side)
+    for (uint32_t row = 0; row < 32; row = (row + side + 1) & ~side) {
+      const uint32_t swapped = (rows[row] >> side ^ rows[row + side]) & low;
+      rows[row] ^= swapped << side;
+      rows[row + side] ^= swapped;
+    }
+}
+
 Planes planes_of(const uint32_t* words) {
   Planes planes{};
+  uint32_t signs = 0;
   for (uint32_t i = 0; i + 1 < kBpcWords; ++i) {
-    const uint64_t delta = uint64_t{words[i + 1]} - words[i];  // bit 32 is the sign
-    for (uint32_t b = 0; b < kPlanes; ++b) planes[b] |= static_cast<uint32_t>(delta >> b & 1) << i;
+    planes[i] = words[i + 1] - words[i];
+    signs |= uint32_t{words[i + 1] < words[i]} << i;
   }
+  transpose(planes.data());
+  planes[kPlanes - 1] = signs;  // bit 32 of the deltas
   return planes;
 }
 
