@@ -39,16 +39,4 @@ void FrameSource::aim_prefetch(uint32_t begin) {
   prefetch_.aim(frame_, y, std::min(y + needs_.tile_side, frame_.height));
 }
 
-void FrameSource::prefetch_beside(uint32_t bx, uint32_t bx_end, uint32_t by) {
-  if (!prefetches_) return;
-  constexpr uint32_t kBlockLines = kBlockPixels * sizeof(uint32_t) / RowPrefetch::kLineBytes;
-  prefetch_.step((bx_end - bx) * kBlockLines);
-  if (in_place_) RowPrefetch::bring_nearer(plane_, bx_end, std::min(2 * bx_end - bx, plane_.blocks_x()), by);
-}
-
-uint32_t FrameSource::pixels_inside(uint32_t bx, uint32_t blocks, uint32_t by) const {
-  return std::min(blocks * kBlockSide, plane_.width() - bx * kBlockSide) *
-         std::min(kBlockSide, plane_.height() - by * kBlockSide);
-}
-
 }  // namespace tilepress

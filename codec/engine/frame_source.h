@@ -1,6 +1,7 @@
 // Frame source: where the pixels of a frame come from, row of tiles by row of tiles.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -28,7 +29,13 @@ class FrameSource {
   /// Makes rows `begin` to `end` of blocks, one row of tiles, readable. Call it for all rows in order.
   void take_rows(uint32_t begin, uint32_t end);
   /// Prefetches what comes next while blocks `bx` to `bx_end` of row `by` are visited.
-  void prefetch_beside(uint32_t bx, uint32_t bx_end, uint32_t by);
+  void prefetch_beside(uint32_t bx, uint32_t bx_end, uint32_t by) {
+    constexpr uint32_t kBlockLines = kBlockPixels * sizeof(uint32_t) / RowPrefetch::kLineBytes;
+    if (!prefetches_) return;
+    prefetch_.step((bx_end - bx) * kBlockLines);
+    if (in_place_)
+      RowPrefetch::bring_nearer(plane_, bx_end, std::min(2 * bx_end - bx, plane_.blocks_x()), by);
+  }
   void end_frame() { has_before_ = true; }
 
   const PixelPlane& plane() const { return plane_; }
@@ -36,7 +43,10 @@ class FrameSource {
     return plane_.row(by * kBlockSide) + bx * kBlockSide;
   }
   /// Pixels of `blocks` blocks side by side that lie inside the surface.
-  uint32_t pixels_inside(uint32_t bx, uint32_t blocks, uint32_t by) const;
+  uint32_t pixels_inside(uint32_t bx, uint32_t blocks, uint32_t by) const {
+    return std::min(blocks * kBlockSide, plane_.width() - bx * kBlockSide) *
+           std::min(kBlockSide, plane_.height() - by * kBlockSide);
+  }
   /// Pixels that changed since the frame before; none in the first frame.
   std::optional<uint64_t> changed() const {
     return has_before_ ? std::optional(changed_pixels_) : std::nullopt;
