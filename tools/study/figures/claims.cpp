@@ -19,6 +19,11 @@ namespace {
 constexpr double kCoverageThreshold = 0.7;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+/// The rule's category as the study spells it.
+std::string spelled(const StudyData& data, const ClaimRule& rule) {
+  return data.spelled_category(rule.category);
+}
+
 double mean_of(const std::vector<double>& values) {
   return values.empty() ? kNone : std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
@@ -44,7 +49,7 @@ std::optional<size_t> stand_in(const StudyData& data, const std::string& categor
 /// Values of the rule's column of results.csv, one per workload of the category.
 std::vector<double> result_values(const StudyData& data, const ClaimRule& rule, double least_coverage) {
   std::vector<double> values;
-  for (const size_t row : workloads_of(data, rule.category)) {
+  for (const size_t row : workloads_of(data, spelled(data, rule))) {
     const std::string& workload = data.workloads.text(row, "workload");
     const double value = data.result(workload, rule.configuration, rule.column);
     if (std::isfinite(value) && !(data.workloads.number(row, "fvc_coverage") < least_coverage))
@@ -54,7 +59,7 @@ std::vector<double> result_values(const StudyData& data, const ClaimRule& rule, 
 }
 
 std::vector<double> hybrid_values(const StudyData& data, const ClaimRule& rule) {
-  return workload_values(data, rule.category, [&](const std::string& workload) {
+  return workload_values(data, spelled(data, rule), [&](const std::string& workload) {
     const HybridBlocks blocks = hybrid_blocks(data, workload, rule.configuration);
     return blocks.vdcp_only() / (blocks.vdcp_only() + blocks.ras_only());
   });
@@ -67,7 +72,7 @@ std::string short_workloads(const StudyData& data, const ClaimRule& rule) {
   const size_t at = configuration.find(kPeriod);
   double period = 0;
   if (at == std::string_view::npos || !read_csv(configuration.substr(at + kPeriod.size()), period)) return "";
-  const std::vector<size_t> rows = workloads_of(data, rule.category);
+  const std::vector<size_t> rows = workloads_of(data, spelled(data, rule));
   const auto is_short = [&](size_t row) { return data.workloads.number(row, "frames") <= period; };
   const auto count = std::count_if(rows.begin(), rows.end(), is_short);
   if (count == 0) return "";
@@ -76,9 +81,9 @@ std::string short_workloads(const StudyData& data, const ClaimRule& rule) {
 }
 
 Claim claim_on_means(const StudyData& data, const ClaimRule& rule) {
-  const double mean = data.mean(rule.category, rule.configuration, rule.column);
-  const double base = data.mean(rule.category, rule.base, rule.column);
-  const double workloads = data.mean(rule.category, rule.configuration, "workloads");
+  const double mean = data.mean(spelled(data, rule), rule.configuration, rule.column);
+  const double base = data.mean(spelled(data, rule), rule.base, rule.column);
+  const double workloads = data.mean(spelled(data, rule), rule.configuration, "workloads");
   Claim claim{rule, mean, std::isnan(workloads) ? 0 : static_cast<size_t>(workloads)};
   if (rule.source == ClaimSource::kRelative) claim.ours = mean / base;
   if (rule.source == ClaimSource::kRelative) claim.reason = short_workloads(data, rule);
@@ -99,7 +104,7 @@ Claim claim_on_workloads(const StudyData& data, const ClaimRule& rule) {
   const bool lowest = rule.source == ClaimSource::kLowestCovered;
   std::vector<double> values;
   if (rule.source == ClaimSource::kWorkloadMean)
-    values = workload_column(rule.category);
+    values = workload_column(spelled(data, rule));
   else if (rule.source == ClaimSource::kHybridShare)
     values = hybrid_values(data, rule);
   else
@@ -112,7 +117,7 @@ Claim claim_on_workloads(const StudyData& data, const ClaimRule& rule) {
 }
 
 Claim claim_on_stand_in(const StudyData& data, const ClaimRule& rule) {
-  const auto row = stand_in(data, rule.category);
+  const auto row = stand_in(data, spelled(data, rule));
   if (!row) return {rule, kNone, 0};
   return {rule, data.workloads.number(*row, rule.column), 1, data.workloads.text(*row, "workload")};
 }

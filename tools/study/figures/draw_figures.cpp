@@ -30,6 +30,8 @@ Result<std::vector<std::string>> draw_figures(const std::string& study_folder) {
                                {{"PYTHONDONTWRITEBYTECODE", "1"}});
     if (!end) continue;
     has_python = true;
+    if (end->told_to_end)
+      return Error{ErrorKind::kSystem, study_folder + "/figures: the drawing was interrupted"};
     if (end->status() == 0) return std::vector<std::string>{};
     if (end->status() != kNoMatplotlib)
       return std::vector<std::string>{study_folder + "/figures: not every figure was drawn"};

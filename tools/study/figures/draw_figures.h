@@ -14,7 +14,7 @@ extern const std::string_view kFigureDrawingsScript;  ///< figure_drawings.py
 
 /// Stores the script in figures/ of the study, where users can change its style, and runs it. The script
 /// draws the figures whose rows have changed. Returns lines for the user: what could not be drawn, and why.
-/// Fails if the script cannot be stored.
+/// Fails if the script cannot be stored or a signal interrupts it.
 Result<std::vector<std::string>> draw_figures(const std::string& study_folder);
 
 }  // namespace tilepress

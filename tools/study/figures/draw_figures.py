@@ -11,8 +11,10 @@ Exit status: 0 done, 1 a figure could not be drawn, 3 matplotlib is missing.
 """
 import csv
 import hashlib
+import io
 import json
 import os
+import signal
 import sys
 import warnings
 from pathlib import Path
@@ -32,14 +34,14 @@ def load_matplotlib():
     plt.rcParams.update({
         "font.family": "DejaVu Sans", "font.size": 7, "axes.labelsize": 7, "xtick.labelsize": 6.5, "ytick.labelsize": 6.5, "legend.fontsize": 6.5,
         "axes.linewidth": 0.6, "lines.linewidth": 1.1, "lines.markersize": 3.6, "grid.color": "0.88", "grid.linewidth": 0.5, "hatch.linewidth": 0.5,
-        "axes.axisbelow": True, "axes.spines.top": False, "axes.spines.right": False, "xtick.major.width": 0.6, "ytick.major.width": 0.6,
+        "text.parse_math": False, "axes.axisbelow": True, "axes.spines.top": False, "axes.spines.right": False, "xtick.major.width": 0.6, "ytick.major.width": 0.6,
         "legend.handlelength": 2.2, "legend.columnspacing": 1.2, "svg.fonttype": "path", "svg.hashsalt": "tilepress", "pdf.fonttype": 42,
         "savefig.dpi": 300, "figure.constrained_layout.h_pad": 0.02, "figure.constrained_layout.w_pad": 0.02})
     return plt
 
 
 def draw(plt, folder, about, text, categories):
-    drawing = Drawing(plt, about, list(csv.DictReader(text.splitlines())), categories)
+    drawing = Drawing(plt, about, list(csv.DictReader(io.StringIO(text, newline=""))), categories)
     figure = KINDS[about["kind"]](drawing)
     for ending, metadata in (("svg", {"Title": about["title"], "Date": None}), ("pdf", {"Title": about["title"], "CreationDate": None})):
         part = folder / f".{about['name']}.{ending}.part"
@@ -51,6 +53,7 @@ def draw(plt, folder, about, text, categories):
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # end without a traceback
     folder = Path(sys.argv[1]) / "figures"
     document = json.loads((folder / "figures.json").read_text(encoding="utf-8"))
     record = folder / "drawn.json"

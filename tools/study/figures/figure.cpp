@@ -86,8 +86,12 @@ Result<Figure> make_figure(const StudyData& data, const FigureSpec& spec) {
 }
 
 std::vector<FigureSpec> figure_specs(const StudyData& data) {
-  if (!data.spec.figures.empty()) return data.spec.figures;
-  std::vector<FigureSpec> out;
+  std::vector<FigureSpec> out = data.spec.figures;
+  for (FigureSpec& spec : out) {
+    for (PublishedPoint& point : spec.published) point.category = data.spelled_category(point.category);
+    for (std::string& category : spec.categories) category = data.spelled_category(category);
+  }
+  if (!out.empty()) return out;
   for (const FigureAxis& axis : data.spec.axes)
     out.push_back({.name = axis.name,
                    .kind = "rate over an axis",

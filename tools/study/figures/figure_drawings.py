@@ -299,7 +299,7 @@ def draw_coverage(drawing):
             part = [row for row in rows if bool(row["frame"]) == frame]
             axes.scatter([number(row["fvc_coverage"]) for row in part], [number(row[about["y_column"]]) for row in part], s=size, marker=marker,
                          color=color, edgecolor=edge, linewidth=0.4, alpha=0.45 if frame else 1, label=label, zorder=2 if frame else 3,
-                         rasterized=frame and len(part) > 3000)
+                         rasterized=frame and len(part) > 1500)
     axes.set_yscale("log", base=2)
     axes.yaxis.set_major_formatter(drawing.plt.matplotlib.ticker.FormatStrFormatter("%g"))
     axes.set_ylim(min(values) / 1.2, max(values) * 1.3)

@@ -7,6 +7,8 @@
 #include <set>
 #include <tuple>
 
+#include "report/published_means.h"
+
 namespace tilepress {
 namespace {
 
@@ -53,6 +55,12 @@ double StudyData::result(const std::string& workload, const std::string& configu
 double StudyData::mean(const std::string& category, const std::string& configuration,
                        std::string_view column) const {
   return number_or_nan(means, mean_row(category, configuration), column);
+}
+
+std::string StudyData::spelled_category(const std::string& name) const {
+  for (const std::string& category : categories_)
+    if (same_category(category, name)) return category;
+  return name;
 }
 
 std::string StudyData::category_title(const std::string& category) const {

@@ -34,6 +34,8 @@ class StudyData {
 
   /// Categories of means.csv in the study's order. kAllCategories stands last, or alone.
   const std::vector<std::string>& categories() const { return categories_; }
+  /// The study's own spelling of a category: "ui" where a paper writes "UI". `name` itself if there is none.
+  std::string spelled_category(const std::string& name) const;
   /// The title that the study gives a category.
   std::string category_title(const std::string& category) const;
   /// Rows of workloads.csv with results, in the paper's order: by category, within a category by

@@ -166,6 +166,45 @@ def check_drawing(folder, scripts):
     expect(done.returncode == 1 and done.stderr.count("\n") == 1 and "hybrid-shares: not drawn: " in done.stderr, f"a torn file: {done.stderr}")
 
 
+def check_odd_names(program, scripts, folder):
+    """Names with signs that CSV, HTML, LaTeX and matplotlib's formulas reserve, and a category in another spelling."""
+    toml = folder.parent / "odd.toml"
+    toml.write_text("""[[figure]]
+name = "rates"
+kind = "rates of workloads"
+title = "R & D <$x_1$>"
+[[figure]]
+name = "means"
+kind = "means"
+configurations = ["vdcp"]
+published = [{x = "vdcp", category = "UI", value = 5.26}]
+[[figure]]
+name = "gone"
+kind = "rate over an axis"
+axis = "nowhere"
+""")
+    plain, base = make_study.workloads, make_study.BASE
+    make_study.BASE = {"ui": 4.0}
+    make_study.workloads = lambda count: [(f'a_{w}, "$x$" & <b>\\', "ui", w) for w in range(count)]
+    try:
+        make_study.write_study(folder, toml, 2)
+    finally:
+        make_study.workloads, make_study.BASE = plain, base
+    done = subprocess.run([program, folder], capture_output=True, text=True)
+    expect(done.stdout == "figure gone: the study has no axis 'nowhere'\n" and done.returncode == 0, f"odd names: {done.stdout}{done.stderr}")
+    for script in ("draw_figures.py", "figure_drawings.py"):
+        shutil.copy(scripts / script, folder / "figures" / script)
+    done = draw(python_with_matplotlib(), folder)
+    expect(done.returncode == 0 and done.stderr == "", f"odd names: {done.stderr}")
+    names = {row["workload"] for row in rows_of(folder / "figures/rates.csv")}
+    expect(names == {f'a_{w}, "$x$" & <b>\\' for w in range(2)}, f"odd names became {names}")
+    expect([row["published"] for row in rows_of(folder / "figures/means.csv") if row["category"] == "ui"] == ["5.26"], "'ui' is not 'UI'")
+    claims = {row["id"]: row for row in rows_of(folder / "claims.csv")}
+    expect(claims["vdcp-ui"]["workloads"] == "2" and claims["vdcp-3d"]["ours"] == "", "claims of 'ui' and of no category")
+    page = (folder / "study.html").read_text()
+    expect("<b>" not in page and "R &amp; D &lt;$x_1$&gt;" in page, "names are not escaped on the page")
+
+
 def main():
     program, source = sys.argv[1], Path(sys.argv[2])
     toml = source / "paper_figures.toml"
@@ -179,6 +218,7 @@ def main():
         check_claims(folder, tomllib.loads(toml.read_text())["figure"])
         check_tables(folder)
         check_drawing(folder, source)
+        check_odd_names(program, source, Path(name) / "odd")
     for fault in faults[:20]:
         print("FAULT:", fault)
     sys.exit(1 if faults else 0)

@@ -60,7 +60,7 @@ def rate_of(category, w, configuration):
 
 
 def coverage_of(category, w):
-    return min(0.97, {"UI": 0.8, "2D": 0.6, "3D": 0.3}[category] + 0.02 * w)
+    return min(0.97, {"UI": 0.8, "2D": 0.6, "3D": 0.3}.get(category, 0.5) + 0.02 * w)
 
 
 def relative_coverage_of(configuration):
@@ -116,7 +116,7 @@ def mean_rows(names, per_category):
 
 
 def frame_change(category, w, frame):
-    size = {"UI": 0.12, "2D": 0.35, "3D": 0.7}[category]
+    size = {"UI": 0.12, "2D": 0.35, "3D": 0.7}.get(category, 0.2)
     return min(1, size * (1 + 0.4 * math.sin(frame * 0.7 + w))) if frame % 9 else min(1, 2 * size)
 
 
@@ -130,7 +130,7 @@ def write_study(folder, figures_toml, per_category=3, frames=40):
                                       "fvc_coverage_mean", "fvc_relative_coverage_mean"], mean_rows(names, per_category))
     metrics, cdf, rates, about = [], [], [], []
     for workload, category, w in workloads(per_category):
-        steep = {"UI": 0.8, "2D": 0.5, "3D": 0.1}[category]
+        steep = {"UI": 0.8, "2D": 0.5, "3D": 0.1}.get(category, 0.4)
         for frame in range(frames):
             change = frame_change(category, w, frame)
             metrics.append([workload, category, frame, 0, 720, 1280, "RGBA8", int(frame == 0), 500 + frame, 5.5, change, change / 4, 0.8, 0.95, steep])
@@ -140,7 +140,7 @@ def write_study(folder, figures_toml, per_category=3, frames=40):
         for colors in [*range(1, 11), *(m * 10 ** p for p in range(1, 5) for m in range(2, 11))]:
             cdf.append([workload, category, colors, 1 - (1 - steep) ** (math.log(1 + colors) / math.log(101))])
         shown = [frame_change(category, w, frame) for frame in range(1, frames)]
-        about.append([workload, category, "done", "", f"traces/{workload}.trace", frames, 1, 720, 1280, "RGBA8", 520, {"UI": 4.6, "2D": 8, "3D": 13}[category] + w / 8,
+        about.append([workload, category, "done", "", f"traces/{workload}.trace", frames, 1, 720, 1280, "RGBA8", 520, {"UI": 4.6, "2D": 8, "3D": 13}.get(category, 6) + w / 8,
                       sum(shown) / len(shown), sum(shown) / len(shown) / 4, coverage_of(category, w), 0.95, steep])
     about.append(["video-wall", "UI", "unsupported", "surface 0 is RGB565", "traces/video-wall.trace", 0, *[""] * 11])
     write_rows(folder / "frame_metrics.csv", ["workload", "category", "frame", "surface", "width", "height", "format", "warmup", "unique_colors", "entropy",
