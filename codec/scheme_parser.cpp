@@ -99,8 +99,8 @@ Result<SchemeValue> parse_value(const SchemeKey& key, const std::string& text, S
     auto numbers = key.read_file(text);
     return numbers ? Result<SchemeValue>(std::move(*numbers)) : numbers.error();
   }
-  if (key.zero_word != nullptr && text == key.zero_word) return SchemeValue(0u);
-  const auto number = parse_number(text, key.low, key.high);
+  const bool is_word = key.zero_word != nullptr && text == key.zero_word;
+  const auto number = is_word ? std::optional(0u) : parse_number(text, key.low, key.high);
   if (!number || (key.kind == KeyKind::kPowerOfTwo && !std::has_single_bit(*number))) return fault;
   return SchemeValue(*number);
 }
