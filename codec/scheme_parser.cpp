@@ -99,10 +99,14 @@ Result<SchemeValue> parse_value(const SchemeKey& key, const std::string& text, S
     auto numbers = key.read_file(text);
     return numbers ? Result<SchemeValue>(std::move(*numbers)) : numbers.error();
   }
-  const bool is_word = key.zero_word != nullptr && text == key.zero_word;
-  const auto number = is_word ? std::optional(0u) : parse_number(text, key.low, key.high);
-  if (!number || (key.kind == KeyKind::kPowerOfTwo && !std::has_single_bit(*number))) return fault;
-  return SchemeValue(*number);
+  uint32_t number = 0;
+  if (key.zero_word == nullptr || text != key.zero_word) {
+    const auto parsed = parse_number(text, key.low, key.high);
+    if (!parsed || (key.kind == KeyKind::kPowerOfTwo && !std::has_single_bit(*parsed))) return fault;
+    number = *parsed;
+  }
+  const SchemeValue value = number;
+  return value;
 }
 
 /// Parses one `key=value` into `spec` and adds the key to `given`.
