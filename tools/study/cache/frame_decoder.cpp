@@ -53,8 +53,8 @@ struct FrameDecoder::State {
     Lz4Blocks blocks(body);
     ChangedRun run;
     for (size_t done = 0; done < changed;) {
-      const std::span<std::byte> block(scratch.data(), std::min(kLz4BlockBytes, changed - done));
-      if (!blocks.next(block)) return false;
+      const auto block = blocks.next({scratch.data(), std::min(kLz4BlockBytes, changed - done)});
+      if (block.empty()) return false;
       done += block.size();
       for (size_t used = 0; used < block.size();) {
         if (run.bytes() == 0 && !runs.next(run)) return false;

@@ -1,5 +1,4 @@
 // Frame encoder: the size of each key frame decides how the frames up to the next one are coded.
-#include <lz4.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -32,6 +31,7 @@ struct FrameEncoder::State {
   std::string map, out, lz4;
   uint64_t frames = 0;
   FrameCoding coding = FrameCoding::kZstd;
+  size_t lz4_budget = 0;  ///< bytes of a frame that LZ4 codes
 
   ~State() { ZSTD_freeCCtx(zstd); }
 
@@ -57,7 +57,7 @@ struct FrameEncoder::State {
     gather(pixels, units, [&](const ChangedRun& run, std::byte* to) {
       take_row_differences(pixels.data(), pitch, run.begin, run.end, to);
     });
-    pack_lz4_blocks(changed, lz4);
+    pack_lz4_blocks(changed, lz4_budget, lz4);
   }
 
   template <class Copy>
@@ -72,8 +72,9 @@ struct FrameEncoder::State {
     put_field(out, 0, 4);
     const size_t header = out.size();
     if (const auto done = append_zstd(pixels, kKeyLevel, {}); !done) return done;
+    lz4_budget = static_cast<size_t>(kLz4Share * static_cast<double>(out.size() - header));
     pack_lz4(pixels, pitch, {});
-    const bool small = static_cast<double>(lz4.size()) < kLz4Share * static_cast<double>(out.size() - header);
+    const bool small = lz4.size() < lz4_budget;
     coding = small ? FrameCoding::kLz4Up : FrameCoding::kZstd;
     if (small) out.replace(header, std::string::npos, lz4);
     return {};

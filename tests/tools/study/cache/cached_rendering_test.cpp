@@ -116,7 +116,8 @@ TEST(CachedRendering, ReplacesWhatIsNoWholeCacheOfThisKey) {
   write_cache(folder.file("foreign"), make_frames(Content::kStill, 0, 1, 8, 8));
   const std::pair<std::string, const char*> kBad[] = {
       {good.substr(0, good.size() / 2), ": is torn or no whole frame cache; rendered again\n"},
-      {bytes_of_file(folder.file("foreign")), ": holds the frames of another trace or renderer; rendered again\n"},
+      {bytes_of_file(folder.file("foreign")),
+       ": holds the frames of another trace or renderer; rendered again\n"},
   };
   for (const auto& [bytes, line] : kBad) {
     write_bytes(first.path, bytes);

@@ -1,12 +1,14 @@
-// Tests of changed units and row differences.
+// Tests of changed units, row differences and LZ4 blocks.
 #include "study/cache/changed_units.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
 #include "study/cache/file_bytes.h"
+#include "study/cache/lz4_blocks.h"
 #include "study/cache/row_differences.h"
 
 namespace tilepress {
@@ -98,6 +100,46 @@ TEST(RowDifferences, ComeBackForAnyPitchAndRange) {
       }
     }
   }
+}
+
+/// The bytes of all blocks; empty if a block is damaged or bytes are left.
+Bytes unpacked(const std::string& packed, size_t size) {
+  Bytes out, room(kLz4BlockBytes);
+  Lz4Blocks blocks(bytes_of(packed));
+  while (out.size() < size) {
+    const auto block = blocks.next(std::span(room).first(std::min(kLz4BlockBytes, size - out.size())));
+    if (block.empty()) return {};
+    out.insert(out.end(), block.begin(), block.end());
+  }
+  return blocks.at_end() ? out : Bytes();
+}
+
+TEST(Lz4Blocks, StoreWhatHardlyGetsSmallerWithinTheBudget) {
+  // Two blocks. The first one is noise in three of four parts, so that LZ4 takes a quarter away. The second
+  // is zeros.
+  Bytes bytes = random_bytes(kLz4BlockBytes / 4 * 3, 1);
+  bytes.resize(2 * kLz4BlockBytes);
+  std::string small, large;
+  pack_lz4_blocks(bytes, 0, small);
+  pack_lz4_blocks(bytes, bytes.size(), large);
+  EXPECT_LT(small.size(), kLz4BlockBytes);
+  EXPECT_GT(large.size(), kLz4BlockBytes);
+  EXPECT_LT(large.size(), kLz4BlockBytes + 2000) << "the zeros are not stored";
+  EXPECT_EQ(unpacked(small, bytes.size()), bytes);
+  EXPECT_EQ(unpacked(large, bytes.size()), bytes);
+  std::string tight;
+  pack_lz4_blocks(bytes, large.size() - 1, tight);
+  EXPECT_EQ(tight, small);
+}
+
+TEST(Lz4Blocks, NoiseIsStoredWhateverTheBudgetIs) {
+  const Bytes bytes = random_bytes(kLz4BlockBytes + 5, 3);
+  std::string packed;
+  pack_lz4_blocks(bytes, 0, packed);
+  EXPECT_EQ(packed.size(), bytes.size() + 8);
+  EXPECT_EQ(unpacked(packed, bytes.size()), bytes);
+  EXPECT_TRUE(unpacked(packed.substr(0, packed.size() - 1), bytes.size()).empty());
+  EXPECT_TRUE(unpacked(packed, bytes.size() - 1).empty());
 }
 
 }  // namespace
