@@ -66,6 +66,7 @@ ReplayResult judge(const ReplayEvidence& evidence) {
   result.frames_in_trace = trace.frames;
   result.frames_wanted = expected_frames(evidence, run);
   result.frames_captured = captured;
+  result.frames_unsupported = run.counts.unsupported;
   result.seconds = outcome.seconds;
   const auto end_with = [&result](ReplayStatus status, std::string reason) {
     result.status = status;

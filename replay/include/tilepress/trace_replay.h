@@ -55,6 +55,7 @@ struct ReplayResult {
   uint64_t frames_in_trace = 0;
   uint64_t frames_wanted = 0;  ///< frames of the trace that were asked for
   uint64_t frames_captured = 0;
+  uint64_t frames_unsupported = 0;  ///< presented in a format that tilepress does not model
   double seconds = 0;  ///< from the start of the retracer to its end
   RunRecord run;       ///< as written; empty if nothing was captured
 };

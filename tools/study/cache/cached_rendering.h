@@ -15,8 +15,8 @@ namespace tilepress {
 
 struct RenderOptions {
   std::string cache_folder;  ///< empty: default_cache_folder()
-  /// Bytes of all cache files. The least recently used ones go when a rendering has ended; those of this call
-  /// never do.
+  /// Bytes of all cache files. The least recently used ones go when a rendering has ended; those used
+  /// within the last hour stay.
   uint64_t size_limit_bytes = uint64_t{20} << 30;
   RetracerChoice retracer = RetracerChoice::kAuto;
   ReplayDisplay display = ReplayDisplay::kAuto;
@@ -40,8 +40,12 @@ std::string default_cache_folder();
 /// Returns the cache file with the frames of a trace: all of them, or those of input.frames. Renders the
 /// trace if the folder has no whole file of this format for it. Several processes, on several hosts too, may
 /// call this for one folder: one renders, the others wait for its file. A torn, foreign, older or newer file
-/// is reported in one line and replaced. Errors, one line that begins with the trace: the trace cannot be
-/// read or rendered (nothing was captured), the folder cannot be written. kSystem: `stop` became nonzero.
+/// is reported in one line and replaced. A file that lacks frames is whole, too: only render_again renders it
+/// again. Errors, one line that begins with the trace:
+///   kUnsupported  all frames have a format that is not modelled
+///   kSystem       `stop` became nonzero, or there is no renderer
+///   kFile         the trace cannot be read or rendered (nothing was captured), or the folder cannot be
+///   written
 Result<CachedRendering> find_or_render(const ReplayInput& input, const RenderOptions& options,
                                        const std::atomic<int>& stop);
 

@@ -72,11 +72,11 @@ CacheOrigin origin_of(const ReplayInput& input, const CacheKey& key, const Repla
   origin.rendered = utc_now();
   origin.reason = result.reason;
   origin.expected_frames = result.frames_wanted;
-  origin.unsupported_frames = result.run.counts.unsupported;
+  origin.unsupported_frames = result.frames_unsupported;
   return origin;
 }
 
-/// A failure of this machine and not of the trace: the next call may succeed.
+/// Nothing is worth keeping: the next call tries again.
 bool is_passing(const ReplayResult& result) {
   return result.status == ReplayStatus::kInterrupted || result.status == ReplayStatus::kNothingCaptured ||
          result.run.frames.empty();
@@ -146,7 +146,9 @@ Result<CachedRendering> render_trace(const ReplayInput& input, const RenderOptio
   if (!packed) return about(input.path, packed.error());
   const ReplayResult& result = rendering.result();
   if (stop != 0) return Error{ErrorKind::kSystem, input.path + ": interrupted"};
-  if (is_passing(result)) return Error{ErrorKind::kFile, input.path + ": " + result.reason};
+  if (is_passing(result))
+    return Error{result.frames_unsupported > 0 ? ErrorKind::kUnsupported : ErrorKind::kFile,
+                 input.path + ": " + result.reason};
   if (const auto finished = writer.finish(origin_of(input, key, result)); !finished)
     return about(input.path, finished.error());
   return CachedRendering{.path = path, .rendered = true, .seconds = result.seconds, .reason = result.reason};
