@@ -86,7 +86,7 @@ std::optional<int> parse(int argc, char** argv, FramesOptions& options) {
   app.footer(kExamples);
   add_run_options(app, options.run);
   app.add_option("IMAGE", options.images,
-                 "Images or movies of 8 bits a channel, raw .rgba files, or - for raw frames")
+                 "Images or movies of 8 bits a channel, frame caches, raw .rgba files, or - for raw frames")
       ->type_name("...")
       ->required();
   add_size_option(app, "size", options.size, "Size of raw .rgba frames");
