@@ -50,6 +50,8 @@ Result<bool> read_raw_pipe(Pipe& pipe, std::span<std::byte> out) {
 }  // namespace
 
 Result<bool> SourceReader::read(const FrameSource& source, FrameSize size, std::span<std::byte> out) {
+  // A cached frame's error names the file already.
+  if (source.kind == FrameSource::Kind::kCached) return read_cached(source, out);
   const auto done = source.kind == FrameSource::Kind::kRawFile   ? read_raw_file(source.path, out)
                     : source.kind == FrameSource::Kind::kRawPipe ? read_raw_pipe(*source.pipe, out)
                                                                  : read_image(source, size, out);
