@@ -25,6 +25,7 @@ constexpr Verb kVerbs[] = {
     {"info", "print what recorded traces hold", verb_info},
     {"bench", "measure the speed of each scheme, memcpy and LZ4", verb_bench},
     {"report", "write an HTML page about one run or many", verb_report},
+    {"summary", "print the rates of finished runs and their means", verb_summary},
     {"compare", "compare two runs, with an exit status for regressions", verb_compare},
     {"pack", "compress images into a file of compressed surfaces", verb_pack},
     {"unpack", "restore the images of a packed file, or read a part and count bursts", verb_unpack},

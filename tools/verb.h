@@ -28,6 +28,7 @@ int verb_replay(int argc, char** argv);
 int verb_run(int argc, char** argv);
 int verb_schemes(int argc, char** argv);
 int verb_study(int argc, char** argv);
+int verb_summary(int argc, char** argv);
 int verb_top(int argc, char** argv);
 int verb_unpack(int argc, char** argv);
 int verb_view(int argc, char** argv);

@@ -12,34 +12,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kTickPeriod{100};
 
-bool is_measured(const ReplayResult& result) {
-  return (result.status == ReplayStatus::kDone || result.status == ReplayStatus::kKept) &&
-         result.run.measured_frames > 0;
-}
-
-/// Sums of 1/rate of one scheme.
-struct MeanSums {
-  uint64_t traces = 0;
-  double inverse = 0, inverse_payload = 0;
-};
-
-MeanSums sum_over(const std::vector<std::unique_ptr<TraceReplay>>& replays, const std::string& category,
-                  const std::string& scheme) {
-  MeanSums sums;
-  for (const auto& replay : replays) {
-    if (!is_measured(replay->result()) || (!category.empty() && replay->input().category != category))
-      continue;
-    const RunRecord& run = replay->result().run;
-    const auto found = std::find(run.scheme_names.begin(), run.scheme_names.end(), scheme);
-    if (found == run.scheme_names.end()) continue;
-    const SchemeStatistics& total = run.totals[static_cast<size_t>(found - run.scheme_names.begin())];
-    ++sums.traces;
-    sums.inverse += 1 / total.rate();
-    sums.inverse_payload += 1 / total.rate_payload();
-  }
-  return sums;
-}
-
 /// A queue of prepared replays, from the thread that reads traces to the threads that replay them.
 class ReadyReplays {
  public:
@@ -89,10 +61,6 @@ class ReadyReplays {
   bool closed_ = false;
 };
 
-void append_once(std::vector<std::string>& list, const std::string& text) {
-  if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
-}
-
 }  // namespace
 
 ReplayBatch::ReplayBatch(const std::vector<ReplayInput>& inputs, const ReplayOptions& options) {
@@ -130,26 +98,6 @@ void ReplayBatch::run(unsigned jobs, const std::atomic<int>& stop,
     tick(ready.progress());
   for (std::thread& thread : threads) thread.join();
   tick(ready.progress());
-}
-
-std::vector<CategoryMean> category_means(const std::vector<std::unique_ptr<TraceReplay>>& replays) {
-  std::vector<std::string> categories, schemes;
-  for (const auto& replay : replays) {
-    if (!is_measured(replay->result())) continue;
-    if (!replay->input().category.empty()) append_once(categories, replay->input().category);
-    for (const std::string& scheme : replay->result().run.scheme_names) append_once(schemes, scheme);
-  }
-  categories.emplace_back();
-  std::vector<CategoryMean> means;
-  for (const std::string& category : categories) {
-    for (const std::string& scheme : schemes) {
-      const MeanSums sums = sum_over(replays, category, scheme);
-      const auto count = static_cast<double>(sums.traces);
-      if (sums.traces > 0)
-        means.push_back({category, scheme, sums.traces, count / sums.inverse, count / sums.inverse_payload});
-    }
-  }
-  return means;
 }
 
 }  // namespace tilepress

@@ -173,6 +173,23 @@ class Manifests(ReplayCase):
         self.assertAlmostEqual(means["all"], 3 / sum(1 / rate for rate in rates.values()), places=9)
         self.assertEqual(read_json(self.path("out/a/run.json"))["category"], "UI")
 
+    def test_in_parts_into_one_folder_keep_the_tables_of_both(self):
+        entries = [f'path = "{EGL}"\nname = "b"\ncategory = "UI"\nframes = "0-4"',
+                   f'path = "{GLX}"\nname = "a"\ncategory = "3D"\nframes = "0-2"']
+        for entry in entries:
+            self.manifest(entry)
+            self.replay("-s", "red", "--manifest", "traces.toml")
+        rows = read_rows(self.path("out/replay.csv"))
+        self.assertEqual([(row["trace"], row["status"]) for row in rows], [("a", "done"), ("b", "done")])
+        means = {row["category"]: row for row in read_rows(self.path("out/categories.csv"))}
+        rates = {row["trace"]: float(row["rate"]) for row in rows}
+        self.assertAlmostEqual(float(means["all"]["rate"]), 2 / (1 / rates["a"] + 1 / rates["b"]), places=9)
+        self.assertAlmostEqual(float(means["UI"]["rate"]), rates["b"], places=9)
+        self.assertEqual(means["all"]["traces"], "2")
+        shown = self.run_command("summary", "out")
+        self.assertEqual(shown.returncode, 0, shown.stderr)
+        self.assertRegex(shown.stdout.decode(), rf"(?m)^harmonic mean +all +\(2 runs\) +{float(means['all']['rate']):.4f}$")
+
     def test_check_the_checksum(self):
         self.manifest(f'path = "{EGL}"\nsha256 = "{"0" * 64}"')
         self.assertIn("as the manifest says", self.replay("--manifest", "traces.toml", status=FAILED))

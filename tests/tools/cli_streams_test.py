@@ -25,6 +25,7 @@ RESULTS = {
     "info": [[TRACE], ["--json", TRACE]],
     "bench": [["-s", "red", "--rounds", "1", "-o", "-", *IMAGES]],
     "report": [["-o", "-", "run"]],
+    "summary": [["run"]],
     "compare": [["run", "run"], ["--format", "csv", "run", "run"]],
     "pack": None,
     "unpack": [["--csv", "a.tpk"]],

@@ -1,28 +1,29 @@
 // Replay tables: rates by trace and by category.
 #include "capture/replay_tables.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "printable.h"
 #include "streams/output_file.h"
-#include "tilepress/csv_table.h"
+#include "tilepress/csv_rows.h"
 
 namespace tilepress {
 namespace {
 
-const char* status_text(ReplayStatus status) {
-  static constexpr const char* kTexts[] = {"not replayed", "done",        "kept",
-                                           "failed",       "interrupted", "nothing captured"};
-  return kTexts[static_cast<size_t>(status)];
-}
+using Row = std::vector<std::string>;
 
-std::string category_label(const std::string& category) {
+/// "all" for the mean over all traces.
+std::string mean_label(const std::string& category) {
   return category.empty() ? "all" : category;
 }
-
-using Row = std::vector<std::string>;
 
 /// Aligns the first two columns to the left and the others to the right.
 std::string aligned(const std::vector<Row>& rows) {
@@ -42,48 +43,35 @@ std::string aligned(const std::vector<Row>& rows) {
   return out;
 }
 
-std::vector<std::string> scheme_columns(const std::vector<std::unique_ptr<TraceReplay>>& replays) {
+std::vector<std::string> scheme_columns(const std::vector<RateRow>& rows) {
   std::vector<std::string> names;
-  for (const auto& replay : replays)
-    for (const std::string& name : replay->result().run.scheme_names)
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  for (const RateRow& row : rows)
+    if (!row.scheme.empty() && std::ranges::find(names, row.scheme) == names.end()) names.push_back(row.scheme);
   return names;
 }
 
-std::string rate_text(const RunRecord& run, const std::string& scheme) {
-  const auto found = std::find(run.scheme_names.begin(), run.scheme_names.end(), scheme);
-  if (found == run.scheme_names.end() || run.measured_frames == 0) return "-";
-  return fmt::format("{:.4f}", run.totals[static_cast<size_t>(found - run.scheme_names.begin())].rate());
+std::string time_text(const RateRow& row) {
+  if (row.status == "kept") return "kept";
+  return row.seconds > 0 ? fmt::format("{:.1f} s", row.seconds) : "-";
 }
 
-/// A scheme of a trace. A trace without a run has one row, without scheme.
-struct TraceRow {
-  const ReplayInput& input;
-  const ReplayResult& result;
-  std::string scheme, rate_payload, rate;  ///< rates: empty without measured frames
-};
-
-namespace trace_csv {
-using Row = TraceRow;
-constexpr CsvColumn<Row> kColumns[] = {
-    TILEPRESS_CSV_FIGURE("trace", row.input.name),
-    TILEPRESS_CSV_FIGURE("path", row.input.path),
-    TILEPRESS_CSV_FIGURE("category", row.input.category),
-    TILEPRESS_CSV_FIGURE("status", status_text(row.result.status)),
-    TILEPRESS_CSV_FIGURE("frames", row.result.frames_in_trace),
-    TILEPRESS_CSV_FIGURE("frames_wanted", row.result.frames_wanted),
-    TILEPRESS_CSV_FIGURE("frames_captured", row.result.frames_captured),
-    TILEPRESS_CSV_FIGURE("seconds", row.result.seconds),
-    csv_column<Row, &Row::scheme>("scheme"),
-    csv_column<Row, &Row::rate_payload>("rate_payload"),
-    csv_column<Row, &Row::rate>("rate"),
-};
-}  // namespace trace_csv
+/// The line of the trace whose rows begin at `first`.
+Row trace_line(const std::vector<RateRow>& rows, size_t first, const std::vector<std::string>& schemes) {
+  const RateRow& row = rows[first];
+  Row line = {printable(row.trace) + (row.is_whole() ? "" : " (!)"), row.category,
+              std::to_string(row.frames_wanted), std::to_string(row.frames_captured), time_text(row)};
+  for (const std::string& scheme : schemes) {
+    const auto same = [&](const RateRow& other) { return other.trace == row.trace && other.scheme == scheme; };
+    const auto found = std::find_if(rows.begin(), rows.end(), same);
+    line.push_back(found == rows.end() || found->rate <= 0 ? "-" : fmt::format("{:.4f}", found->rate));
+  }
+  return line;
+}
 
 namespace category_csv {
 using Row = CategoryMean;
 constexpr CsvColumn<Row> kColumns[] = {
-    TILEPRESS_CSV_FIGURE("category", category_label(row.category)),
+    TILEPRESS_CSV_FIGURE("category", mean_label(row.category)),
     csv_column<Row, &Row::scheme>("scheme"),
     csv_column<Row, &Row::traces>("traces"),
     csv_column<Row, &Row::rate_payload>("rate_payload"),
@@ -91,58 +79,75 @@ constexpr CsvColumn<Row> kColumns[] = {
 };
 }  // namespace category_csv
 
-void append_trace_rows(const TraceReplay& replay, std::string& out) {
-  const RunRecord& run = replay.result().run;
-  TraceRow row{replay.input(), replay.result(), {}, {}, {}};
-  if (run.scheme_names.empty()) append_csv_row(trace_csv::kColumns, row, out);
-  for (size_t i = 0; i < run.scheme_names.size(); ++i) {
-    row.scheme = run.scheme_names[i];
-    if (run.measured_frames > 0) {
-      row.rate_payload = csv_number(run.totals[i].rate_payload());
-      row.rate = csv_number(run.totals[i].rate());
+/// While it lives, no other process changes the tables of the folder.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::string& folder) : fd_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (fd_ >= 0 && flock(fd_, LOCK_EX) != 0) { /* a file system without locks: the last process wins */
     }
-    append_csv_row(trace_csv::kColumns, row, out);
   }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock() {
+    if (fd_ >= 0) close(fd_);
+  }
+
+ private:
+  const int fd_;
+};
+
+/// The rows of replay.csv, without those of `traces` and of runs that have been removed. A file that cannot be
+/// read has none.
+std::vector<RateRow> rows_of_others(const std::string& folder, const std::vector<RateRow>& own) {
+  std::ifstream file(folder + "/replay.csv", std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  CsvRecords records(text);
+  const CsvRowReader<RateRow> reader(records, rate_columns());
+  std::vector<RateRow> rows;
+  while (records.next()) {
+    RateRow row;
+    if (!reader.read(row) || std::ranges::count(own, row.trace, &RateRow::trace) > 0) continue;
+    std::error_code code;
+    if (row.scheme.empty() || std::filesystem::exists(folder + "/" + row.trace, code)) rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 }  // namespace
 
-std::string replay_table(const std::vector<std::unique_ptr<TraceReplay>>& replays) {
-  const std::vector<std::string> schemes = scheme_columns(replays);
-  std::vector<Row> rows = {{"trace", "category", "frames", "captured", "time"}};
-  rows[0].insert(rows[0].end(), schemes.begin(), schemes.end());
-  for (const auto& replay : replays) {
-    const ReplayResult& result = replay->result();
-    const bool good = result.status == ReplayStatus::kDone || result.status == ReplayStatus::kKept;
-    Row row = {printable(replay->input().name) + (good ? "" : " (!)"), replay->input().category,
-               std::to_string(result.frames_wanted), std::to_string(result.frames_captured),
-               result.status == ReplayStatus::kKept ? "kept" : fmt::format("{:.1f} s", result.seconds)};
-    for (const std::string& scheme : schemes) row.push_back(rate_text(result.run, scheme));
-    rows.push_back(std::move(row));
-  }
-  const std::vector<CategoryMean> means = category_means(replays);
+std::string rate_table(const std::vector<RateRow>& rows, const std::string& unit) {
+  const std::vector<std::string> schemes = scheme_columns(rows);
+  std::vector<Row> lines = {{unit, "category", "frames", "captured", "time"}};
+  lines[0].insert(lines[0].end(), schemes.begin(), schemes.end());
+  for (size_t i = 0; i < rows.size(); ++i)
+    if (i == 0 || rows[i].trace != rows[i - 1].trace) lines.push_back(trace_line(rows, i, schemes));
+  const std::vector<CategoryMean> means = category_means(rows);
   for (size_t i = 0; i < means.size();) {
     if (means[i].category.empty() && means[i].traces < 2) break;  // the mean over one trace is that trace
-    Row row = {"harmonic mean", category_label(means[i].category),
-               fmt::format("({} traces)", means[i].traces), "", ""};
+    Row line = {"harmonic mean", mean_label(means[i].category), fmt::format("({} {}s)", means[i].traces, unit), "",
+                ""};
     const std::string& category = means[i].category;
     std::vector<std::string> cells(schemes.size(), "-");
     for (; i < means.size() && means[i].category == category; ++i) {
       const auto column = std::find(schemes.begin(), schemes.end(), means[i].scheme) - schemes.begin();
       cells[static_cast<size_t>(column)] = fmt::format("{:.4f}", means[i].rate);
     }
-    row.insert(row.end(), cells.begin(), cells.end());
-    rows.push_back(std::move(row));
+    line.insert(line.end(), cells.begin(), cells.end());
+    lines.push_back(std::move(line));
   }
-  return aligned(rows);
+  return aligned(lines);
 }
 
-Result<void> write_replay_csv(const std::string& folder,
-                              const std::vector<std::unique_ptr<TraceReplay>>& replays) {
-  std::string traces = csv_header(trace_csv::kColumns), categories = csv_header(category_csv::kColumns);
-  for (const auto& replay : replays) append_trace_rows(*replay, traces);
-  for (const CategoryMean& mean : category_means(replays))
-    append_csv_row(category_csv::kColumns, mean, categories);
+Result<void> write_replay_csv(const std::string& folder, std::vector<RateRow> rows) {
+  const FolderLock lock(folder);
+  const std::vector<RateRow> others = rows_of_others(folder, rows);
+  if (!others.empty()) {
+    rows.insert(rows.end(), others.begin(), others.end());
+    std::ranges::stable_sort(rows, {}, &RateRow::trace);  // the same file whichever process ends last
+  }
+  std::string traces = csv_header(rate_columns()), categories = csv_header(category_csv::kColumns);
+  for (const RateRow& row : rows) append_csv_row(rate_columns(), row, traces);
+  for (const CategoryMean& mean : category_means(rows)) append_csv_row(category_csv::kColumns, mean, categories);
   const auto written = write_whole_file(folder + "/replay.csv", traces, true);
   return written ? write_whole_file(folder + "/categories.csv", categories, true) : written;
 }

@@ -1,21 +1,20 @@
-// Replay tables: the results of a batch of replays, for people and as CSV.
+// Replay tables: the results of a batch, as text and as CSV files.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "tilepress/replay_batch.h"
+#include "capture/rate_rows.h"
 
 namespace tilepress {
 
-/// Returns a line per trace with frames, time and the rate of each scheme, and a line per category with the
-/// harmonic means.
-std::string replay_table(const std::vector<std::unique_ptr<TraceReplay>>& replays);
+/// A row per trace with its rates, then harmonic means by category. "(!)" marks traces that are not whole. `unit`:
+/// what a row is of, "trace" or "run".
+std::string rate_table(const std::vector<RateRow>& rows, const std::string& unit);
 
-/// Writes replay.csv (a row per trace and scheme) and categories.csv (a row per category and scheme) into
-/// `folder`. Error: kFile, the file first.
-Result<void> write_replay_csv(const std::string& folder,
-                              const std::vector<std::unique_ptr<TraceReplay>>& replays);
+/// Writes replay.csv (a row per trace and scheme) and categories.csv (harmonic means). Rows of other traces that
+/// are in `folder` already stay and count in the means: several processes can replay parts of a batch into one
+/// folder.
+Result<void> write_replay_csv(const std::string& folder, std::vector<RateRow> rows);
 
 }  // namespace tilepress

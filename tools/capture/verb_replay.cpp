@@ -115,12 +115,12 @@ int verb_replay(int argc, char** argv) {
     convert_all_dumped_frames(batch);
     status = fail(128 + signal, signal_text(signal) + ": " + interruption);
   } else {
-    if (!options.quiet) show(replay_table(batch.replays()));
+    if (!options.quiet) show(rate_table(rate_rows(batch.replays()), "trace"));
     status = report_failures(batch);
   }
   std::error_code code;
   if (!std::filesystem::exists(output, code)) return status;
-  if (const auto written = write_replay_csv(output, batch.replays()); !written)
+  if (const auto written = write_replay_csv(output, rate_rows(batch.replays())); !written)
     return fail(kExitFailed, written.error());
   return status;
 }

@@ -1,6 +1,4 @@
 // tilepress report: one page about one run or many.
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <atomic>
 #include <string>
@@ -9,6 +7,7 @@
 
 #include "command_line.h"
 #include "counted.h"
+#include "report/category_rules.h"
 #include "report/report_page.h"
 #include "report/run_batch.h"
 #include "streams/output_file.h"
@@ -29,17 +28,6 @@ struct ReportOptions {
   std::vector<std::string> categories;  ///< PATTERN=CATEGORY
   CostConstants energy;
 };
-
-/// The category of the first rule whose pattern matches the workload's name.
-void apply_categories(const std::vector<std::string>& rules, RunSummary& run) {
-  for (const std::string& rule : rules) {
-    const size_t equals = rule.rfind('=');
-    if (fnmatch(rule.substr(0, equals).c_str(), run.name.c_str(), 0) == 0) {
-      run.category = rule.substr(equals + 1);
-      return;
-    }
-  }
-}
 
 /// Loads and adds up every run, on all processors.
 Result<std::vector<RunSummary>> summarise_all(const std::vector<BatchEntry>& entries) {
@@ -76,13 +64,7 @@ int verb_report(int argc, char** argv) {
   app.add_option("-o,--output", options.output, "HTML file to write; - for standard output (default: report.html)")
       ->type_name("FILE");
   app.add_option("--title", options.title, "Heading of the page")->type_name("TEXT");
-  app.add_option("--category", options.categories,
-                 "Category of the workloads whose names match, as 'glmark2*=3D'; repeatable")
-      ->type_name("PATTERN=NAME")
-      ->allow_extra_args(false)
-      ->check([](const std::string& rule) {
-        return rule.find('=') == std::string::npos ? "needs PATTERN=NAME, got '" + rule + "'" : "";
-      });
+  add_category_option(app, options.categories);
   app.add_option("--dram-pj", options.energy.dram_pj_per_byte,
                  "Energy per byte moved in DRAM, pJ (default: 451.2)")
       ->type_name("PJ")
@@ -100,7 +82,8 @@ int verb_report(int argc, char** argv) {
   Batch batch;
   batch.energy = options.energy;
   batch.runs = std::move(*runs);
-  for (RunSummary& run : batch.runs) apply_categories(options.categories, run);
+  for (RunSummary& run : batch.runs)
+    run.category = category_by_rules(options.categories, run.name, run.category);
   arrange_batch(batch);
   std::string title = options.title;
   if (title.empty())

@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 
 #include "capture/trace_manifest.h"
+#include "frames/cached_surface.h"
 #include "images/image_kind.h"
+#include "report/category_rules.h"
 #include "report/run_batch.h"
-#include "study/cache/frame_cache.h"
 #include "tilepress/run_reader.h"
 #include "tilepress/trace_summary.h"
 
@@ -39,13 +39,6 @@ std::string last_name(const fs::path& path) {
   fs::path full = fs::absolute(path).lexically_normal();
   if (!full.has_filename()) full = full.parent_path();
   return full.filename().string();
-}
-
-bool begins_as_cache(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::byte start[kFrameCacheMagicBytes];
-  file.read(reinterpret_cast<char*>(start), sizeof start);
-  return file && begins_as_frame_cache(start);
 }
 
 class WorkloadFinder {
@@ -123,9 +116,9 @@ class WorkloadFinder {
   /// Returns false for a file that is no input.
   bool add_file(const fs::path& file) {
     const std::string path = file.string();
-    if (begins_as_cache(path)) {
+    if (is_frame_cache(path)) {
       add({file.stem().string(), "", WorkloadKind::kFrameCache, {path}, {}});
-    } else if (begins_as_trace(path)) {
+    } else if (file.extension() == ".trace" || begins_as_trace(path)) {  // a torn trace is a workload that fails
       const std::string name = replay_name(path);
       add({name, "", WorkloadKind::kTrace, {path}, {path, name, "", "", std::nullopt}});
     } else {
@@ -173,10 +166,8 @@ bool matches(const std::string& pattern, const std::string& name) {
 }
 
 std::string category_of(const Workload& workload, const std::vector<std::string>& rules, const StudyFile& study) {
-  for (const std::string& rule : rules)
-    if (const size_t equals = rule.rfind('='); matches(rule.substr(0, equals), workload.name))
-      return rule.substr(equals + 1);
-  if (!workload.category.empty()) return workload.category;
+  const std::string ruled = category_by_rules(rules, workload.name, workload.category);
+  if (!ruled.empty()) return ruled;
   for (const StudyCategory& category : study.categories)
     for (const std::string& pattern : category.workloads)
       if (matches(pattern, workload.name)) return category.name;

@@ -69,9 +69,8 @@ class RowSums {
     const SchemeInfo* info = find_scheme(row.scheme.substr(0, row.scheme.find(':')));
     if (info == nullptr) return {};
     for (size_t i = 0; i < names_.size(); ++i) {
-      if (std::ranges::find(info->columns, names_[i], [](const char* name) { return std::string_view(name); }) ==
-          info->columns.end())
-        continue;
+      const auto columns = info->own_columns();
+      if (std::ranges::find(columns, names_[i]) == columns.end()) continue;
       const auto count = own_[i].read<uint64_t>();
       if (!count) return count.error();
       if (*count) sums_.own[i] = sums_.own[i].value_or(0) + **count;
@@ -92,7 +91,7 @@ class RowSums {
 std::vector<std::string_view> own_column_names() {
   std::vector<std::string_view> names;
   for (const SchemeInfo& info : scheme_registry())
-    for (const char* column : info.columns)
+    for (const char* column : info.own_columns())
       if (std::ranges::find(names, column) == names.end()) names.emplace_back(column);
   return names;
 }

@@ -12,8 +12,10 @@
 #include "counted.h"
 #include "streams/ending_signals.h"
 #include "study/figures/study_outputs.h"
-#include "study/study_tables.h"
+#include "study/slurm.h"
 #include "study/study_run.h"
+#include "study/study_tables.h"
+#include "study/task_status.h"
 
 namespace tilepress {
 namespace {
@@ -77,7 +79,6 @@ void add_work_options(CLI::App& app, StudyCommand& command) {
 
 void say_faults(const StudyPlan& plan) {
   for (const Error& fault : plan.faults) fail(kExitFailed, fault);
-  for (const std::string& remark : plan.study.remarks) say(MessageLevel::kWarning, remark);
 }
 
 int write_outcome(const StudyPlan& plan, const StudyOptions& options, bool quiet) {
@@ -89,7 +90,22 @@ int write_outcome(const StudyPlan& plan, const StudyOptions& options, bool quiet
   return kExitDone;
 }
 
+int submit_study(const StudyPlan& plan, const StudyCommand& command) {
+  std::vector<size_t> tasks;
+  const auto statuses = task_statuses(plan, command.study);
+  for (size_t i = 0; i < statuses.size(); ++i)
+    if (statuses[i].state != TaskState::kDone && statuses[i].state != TaskState::kRunning) tasks.push_back(i);
+  if (tasks.empty()) return write_outcome(plan, command.study, command.quiet);
+  const auto job = submit_to_slurm(plan, command.study, tasks);
+  if (!job) return fail(kExitFailed, job.error());
+  if (!command.quiet)
+    show(fmt::format("study {}: {} submitted as array job {}; `tilepress study status {}` shows how far it is\n",
+                     plan.study.name, counted(tasks.size(), "task"), *job, command.study.folder));
+  return plan.faults.empty() ? kExitDone : kExitFailed;
+}
+
 int execute_study(const StudyPlan& plan, StudyCommand& command) {
+  if (command.launcher == StudyLauncher::kSlurm) return submit_study(plan, command);
   const auto begin = std::chrono::steady_clock::now();
   TemporaryFolder links;
   if (needs_shim(plan)) {

@@ -23,13 +23,14 @@ struct StudyCommand {
 /// Adds -j, --shard, --launcher, --progress, -v and -q: how this process works on a study.
 void add_work_options(CLI::App& app, StudyCommand& command);
 
-/// Runs the tasks of the shard, and writes the tables unless there are other shards. Returns the exit status.
+/// Runs the tasks of the shard, and writes the tables unless there are other shards. With Slurm, submits the
+/// tasks that are not done. Returns the exit status.
 int execute_study(const StudyPlan& plan, StudyCommand& command);
 
 /// Writes tables, figures and pages. Returns the exit status.
 int write_outcome(const StudyPlan& plan, const StudyOptions& options, bool quiet);
 
-/// Says the plan's faults and remarks.
+/// Says which inputs give no workload.
 void say_faults(const StudyPlan& plan);
 
 // Sub-commands: argv[0] is the sub-command's name.

@@ -46,7 +46,9 @@ std::optional<int> open_study(int argc, char** argv, const std::string& about_co
   auto plan = make_plan(command.study);
   if (!plan) return fail(kExitFailed, plan.error());
   known.plan = std::move(*plan);
-  return std::nullopt;
+  if (!known.plan.workloads.empty()) return std::nullopt;
+  say_faults(known.plan);
+  return fail(kExitFailed, "no input can be used");
 }
 
 }  // namespace
@@ -65,9 +67,13 @@ int study_retry(int argc, char** argv) {
   KnownStudy known;
   const auto stop = open_study(argc, argv, "Runs the tasks of a study that failed or never ran.", true, known);
   if (stop) return *stop;
-  for (const TaskStatus& status : task_statuses(known.plan, known.command.study))
-    if (status.state == TaskState::kFailed && !status.workload_failed)
-      remove_task_record(known.command.study.folder, status.task->id);
+  const auto statuses = task_statuses(known.plan, known.command.study);
+  for (size_t i = 0; i < statuses.size(); ++i)
+    if (statuses[i].state == TaskState::kFailed && known.command.study.shard.takes(i)) {
+      const StudyTask& task = *statuses[i].task;
+      forget_task(known.command.study.folder, task.id);
+      forget_task(known.command.study.folder, rendering_lock(known.plan.workloads[task.workload].name));
+    }
   say_faults(known.plan);
   return execute_study(known.plan, known.command);
 }

@@ -98,8 +98,7 @@ class StudyParser {
     Result<void> done = take_table(root, keys);
     if (done) done = take_name(root);
     for (size_t i = 0; done && i < listed.size(); ++i) {
-      const auto added = add_configuration(*root.get("configurations"), listed[i]);
-      if (!added) done = added.error();
+      done = add_configurations(*root.get("configurations"), listed[i]);
     }
     if (done) done = for_each_table(root, "category", [&](const auto& table) { return take_category(table); });
     if (done) done = for_each_table(root, "axis", [&](const auto& table) { return take_axis(table); });
@@ -122,6 +121,14 @@ class StudyParser {
     const auto spec = parse_scheme(text);
     if (!spec) return at_line(where, spec.error().text);
     return configurations_.add(*spec);
+  }
+
+  /// `text` may hold lists of values, as -s takes them.
+  Result<void> add_configurations(const toml::node& where, const std::string& text) {
+    const auto specs = parse_schemes(text);
+    if (!specs) return at_line(where, specs.error().text);
+    for (const SchemeSpec& spec : *specs) configurations_.add(spec);
+    return {};
   }
 
   Result<void> take_category(const toml::table& table) {

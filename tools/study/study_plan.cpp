@@ -57,18 +57,4 @@ std::vector<StudyTask> plan_tasks(const StudyFile& study, const std::vector<Work
   return tasks;
 }
 
-Result<StudyPlan> make_plan(const StudyOptions& options) {
-  auto study = load_study(options.study);
-  if (!study) return study.error();
-  StudyPlan plan{std::move(*study), {}, {}, {}};
-  const std::vector<std::string>& inputs = options.inputs.empty() ? plan.study.inputs : options.inputs;
-  if (inputs.empty()) return Error{ErrorKind::kBadValue, "no input given (see tilepress study --help)"};
-  FoundWorkloads found = find_workloads(inputs);
-  plan.workloads = std::move(found.list);
-  plan.faults = std::move(found.faults);
-  apply_categories(options.categories, plan.study, plan.workloads);
-  plan.tasks = plan_tasks(plan.study, plan.workloads, options);
-  return plan;
-}
-
 }  // namespace tilepress

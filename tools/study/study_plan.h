@@ -35,7 +35,8 @@ struct StudyPlan {
   std::vector<Error> faults;  ///< inputs that give no workload
 };
 
-/// Loads the study and finds its inputs. Error: the study cannot be read, or there is no input.
-Result<StudyPlan> make_plan(const StudyOptions& options);
+/// Loads the study and finds its inputs. Makes options.inputs absolute, and takes those of the study if there are
+/// none. Error: the study cannot be read, or no input is given.
+Result<StudyPlan> make_plan(StudyOptions& options);
 
 }  // namespace tilepress

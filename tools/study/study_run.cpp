@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "streams/messages.h"
+#include "study/task_state.h"
 
 namespace tilepress {
 namespace {
@@ -89,7 +90,13 @@ class StudyWorkers {
   const PreparedWorkload* prepare(const Workload& workload) {
     StudyOptions options = options_;
     options.render.progress = [this](uint64_t frames, std::optional<uint64_t>) { frames_rendered_ = frames; };
-    PreparedWorkload prepared = prepare_workload(workload, plan_.study, options, stop_);
+    PreparedWorkload prepared;
+    {
+      TaskLock lock;  // for `study status` alone: the frame cache has locks of its own
+      if (workload.kind == WorkloadKind::kTrace && !lock.take(options_.folder, rendering_lock(workload.name)))
+        say(MessageLevel::kInfo, workload.name + ": `study status` cannot see that it is rendered");
+      prepared = prepare_workload(workload, plan_.study, options, stop_);
+    }
     if (stop_ != 0) return nullptr;
     const WorkloadRecord& record = prepared.record;
     say_how(workload, prepared);

@@ -60,16 +60,20 @@ Result<bool> TaskLock::take(const std::string& folder, const std::string& task) 
   return true;
 }
 
-std::optional<std::string> worker_of(const std::string& folder, const std::string& task) {
+std::string rendering_lock(const std::string& workload) {
+  return workload + ".frames";
+}
+
+std::optional<TaskWorker> worker_of(const std::string& folder, const std::string& task) {
   const std::string path = path_of(folder, task, ".lock");
   const int fd = open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (fd < 0) return std::nullopt;
   struct flock lock = whole_file_lock();
   const bool held = fcntl(fd, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
   close(fd);
-  if (!held) return std::nullopt;
   const auto text = read_text_file(path);
-  return text ? text->substr(0, text->find('\n')) : "a process";
+  if (!text) return std::nullopt;  // it has ended meanwhile
+  return TaskWorker{text->substr(0, text->find('\n')), held};
 }
 
 Result<void> store_task_record(const std::string& folder, const std::string& task, const TaskRecord& record) {
@@ -89,8 +93,10 @@ std::optional<TaskRecord> load_task_record(const std::string& folder, const std:
   }
 }
 
-void remove_task_record(const std::string& folder, const std::string& task) {
+void forget_task(const std::string& folder, const std::string& task) {
   unlink(path_of(folder, task, ".json").c_str());
+  const auto worker = worker_of(folder, task);
+  if (worker && !worker->alive) unlink(path_of(folder, task, ".lock").c_str());
 }
 
 }  // namespace tilepress

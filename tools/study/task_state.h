@@ -24,8 +24,16 @@ class TaskLock {
   int fd_ = -1;
 };
 
-/// "host, process 123", as far as the lock's file says so; nothing if no process works on the task.
-std::optional<std::string> worker_of(const std::string& folder, const std::string& task);
+/// The name under which a process locks the frames of a workload while it renders them.
+std::string rendering_lock(const std::string& workload);
+
+/// A process that began a task.
+struct TaskWorker {
+  std::string name;    ///< "host, process 123"
+  bool alive = false;  ///< false: it ended before the task was done
+};
+/// Nothing if no process began the task, or the last one ended in order.
+std::optional<TaskWorker> worker_of(const std::string& folder, const std::string& task);
 
 /// One try of a task.
 struct TaskRecord {
@@ -39,7 +47,7 @@ struct TaskRecord {
 Result<void> store_task_record(const std::string& folder, const std::string& task, const TaskRecord& record);
 /// Nothing if the task has not ended yet.
 std::optional<TaskRecord> load_task_record(const std::string& folder, const std::string& task);
-/// Forgets that the task failed.
-void remove_task_record(const std::string& folder, const std::string& task);
+/// Forgets that the task failed or was cut off. A process that works on it goes on.
+void forget_task(const std::string& folder, const std::string& task);
 
 }  // namespace tilepress

@@ -18,10 +18,15 @@ constexpr std::array<const char*, 4> kStateNames = {"done", "running", "failed",
 TaskStatus status_of(const StudyPlan& plan, const StudyTask& task, const StudyOptions& options) {
   const Workload& workload = plan.workloads[task.workload];
   const auto record = load_workload_record(options.folder, workload.name);
-  if (record && !record->has_frames()) return {&task, TaskState::kFailed, record->reason, true};
+  if (record && !record->has_frames()) return {&task, TaskState::kFailed, record->reason};
   if (record && (workload.kind == WorkloadKind::kRun || missing_configurations(plan, task, *record, options).empty()))
     return {&task, TaskState::kDone, {}};
-  if (const auto worker = worker_of(options.folder, task.id)) return {&task, TaskState::kRunning, *worker};
+  const auto worker = worker_of(options.folder, task.id);
+  if (worker && worker->alive) return {&task, TaskState::kRunning, worker->name};
+  if (worker) return {&task, TaskState::kFailed, "was cut off (" + worker->name + ")"};
+  const auto renderer = worker_of(options.folder, rendering_lock(workload.name));
+  if (renderer && renderer->alive) return {&task, TaskState::kRunning, "renders its frames: " + renderer->name};
+  if (renderer) return {&task, TaskState::kFailed, "its rendering was cut off (" + renderer->name + ")"};
   const auto ended = load_task_record(options.folder, task.id);
   if (ended && !ended->reason.empty()) return {&task, TaskState::kFailed, ended->reason};
   return {&task, TaskState::kNeverRun, {}};

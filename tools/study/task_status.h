@@ -14,8 +14,7 @@ enum class TaskState : uint8_t { kDone, kRunning, kFailed, kNeverRun };
 struct TaskStatus {
   const StudyTask* task;
   TaskState state = TaskState::kNeverRun;
-  std::string note;              ///< who runs it, or why it failed
-  bool workload_failed = false;  ///< its workload has no frames
+  std::string note;  ///< who runs it, or why it failed
 };
 
 /// In the order of the plan, which must outlive the result.

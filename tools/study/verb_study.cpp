@@ -5,6 +5,7 @@
 #include "capture/replay_choices.h"
 #include "command_line.h"
 #include "common_options.h"
+#include "report/category_rules.h"
 #include "study/invocation.h"
 #include "study/plan_text.h"
 #include "study/study_command.h"
@@ -52,13 +53,7 @@ void add_study_options(CLI::App& app, VerbOptions& options) {
   add_run_option(app, study.run, "output", "Folder of the study (default: " + study.run.output + ")");
   app.add_flag("-n,--plan", options.plan_only, "Print tasks, frames and the estimated time, and run nothing");
   app.add_flag("--example", options.example, "Print a commented study file");
-  app.add_option("--category", study.categories,
-                 "Category of the workloads whose names match, as 'glmark2*=3D'; repeatable")
-      ->type_name("PATTERN=NAME")
-      ->allow_extra_args(false)
-      ->check([](const std::string& rule) {
-        return rule.find('=') == std::string::npos ? "needs PATTERN=NAME, got '" + rule + "'" : "";
-      });
+  add_category_option(app, study.categories);
   for (const char* name : {"tile", "burst", "frames", "every"}) add_run_option(app, study.run, name);
   app.add_option("--cache", study.render.cache_folder,
                  "Folder of rendered traces (default: $XDG_CACHE_HOME/tilepress/frames)")
@@ -105,6 +100,7 @@ int verb_study(int argc, char** argv) {
   const auto plan = make_plan(study);
   if (!plan) return fail(plan.error().kind == ErrorKind::kBadValue ? kExitUsage : kExitFailed, plan.error());
   say_faults(*plan);
+  for (const std::string& remark : plan->study.remarks) say(MessageLevel::kWarning, remark);
   if (plan->workloads.empty()) return fail(kExitFailed, "no input can be used");
   if (options.plan_only) {
     std::fputs(plan_text(*plan, study).c_str(), stdout);

@@ -1,4 +1,4 @@
-// Replay batch: replays many traces, some at a time, and averages their rates.
+// Replay batch: replays many traces, some at a time.
 #pragma once
 
 #include <atomic>
@@ -34,17 +34,5 @@ class ReplayBatch {
  private:
   std::vector<std::unique_ptr<TraceReplay>> replays_;
 };
-
-/// Mean of one scheme over the traces of one category (spec §7): harmonic, each trace counting the same.
-struct CategoryMean {
-  std::string category;  ///< empty: over all traces
-  std::string scheme;
-  uint64_t traces = 0;
-  double rate = 0, rate_payload = 0;
-};
-
-/// Returns the means over the traces that were captured in full and have measured frames. Categories come in
-/// order of first occurrence, and all traces together come last.
-std::vector<CategoryMean> category_means(const std::vector<std::unique_ptr<TraceReplay>>& replays);
 
 }  // namespace tilepress
