@@ -229,7 +229,7 @@ void ColorDistribution::load_before(const ColorHistogram& colors) {
 }
 
 uint64_t ColorDistribution::count_groups(Tables& tables, const Grouped& now, const Grouped* before,
-                                         std::span<ColorCount> wanted, CountProfile& profile) {
+                                         std::span<WantedColor> wanted, CountProfile& profile) {
   /// Walks the groups of a frame.
   struct Cursor {
     const Grouped& frame;
@@ -258,7 +258,7 @@ uint64_t ColorDistribution::count_groups(Tables& tables, const Grouped& now, con
   return before != nullptr ? gained : 0;
 }
 
-uint64_t ColorDistribution::count(const PixelPlane& frame, bool compare, std::span<ColorCount> wanted,
+uint64_t ColorDistribution::count(const PixelPlane& frame, bool compare, std::span<WantedColor> wanted,
                                   CountProfile& profile) {
   Tables& tables = tables_of_thread();
   distribute(frame, tables.next, spare_);

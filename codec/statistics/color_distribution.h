@@ -11,7 +11,7 @@
 namespace tilepress {
 
 /// A colour and the pixels that have it.
-struct ColorCount {
+struct WantedColor {
   uint32_t color;
   uint32_t count = 0;
 };
@@ -29,7 +29,7 @@ class ColorDistribution {
   /// Adds the counts of the colours of `frame` to `profile`, and makes `frame` the last one. `compare`
   /// requires a last frame of as many pixels. Counts the pixels of `wanted`, which are distinct and sorted,
   /// of count 0. Returns how many pixels colours gained since the frame before; 0 without `compare`.
-  uint64_t count(const PixelPlane& frame, bool compare, std::span<ColorCount> wanted, CountProfile& profile);
+  uint64_t count(const PixelPlane& frame, bool compare, std::span<WantedColor> wanted, CountProfile& profile);
 
  private:
   /// The lower halves of the words of a frame's pixels or runs, group after group.
@@ -46,7 +46,7 @@ class ColorDistribution {
   static void note_sizes(std::vector<uint32_t>& ends, Grouped& out);
   static void distribute(const PixelPlane& frame, std::vector<uint32_t>& ends, Grouped& out);
   static uint64_t count_groups(Tables& tables, const Grouped& now, const Grouped* before,
-                               std::span<ColorCount> wanted, CountProfile& profile);
+                               std::span<WantedColor> wanted, CountProfile& profile);
 
   Grouped last_, spare_;
 };

@@ -87,15 +87,15 @@ void FrameMeter::count_few(bool compare, std::span<const Fvc* const> fvcs) {
 
 void FrameMeter::count_many(const PixelPlane& frame, bool compare, std::span<const Fvc* const> fvcs) {
   if (compare && hashed_) distribution_.load_before(counts_);
-  std::vector<ColorCount> colors;
+  std::vector<WantedColor> colors;
   for (const Fvc* fvc : fvcs) for_each_color(*fvc, [&](uint32_t color) { colors.push_back({color}); });
-  std::ranges::sort(colors, {}, &ColorCount::color);
-  const auto same = [](const ColorCount& a, const ColorCount& b) { return a.color == b.color; };
+  std::ranges::sort(colors, {}, &WantedColor::color);
+  const auto same = [](const WantedColor& a, const WantedColor& b) { return a.color == b.color; };
   colors.erase(std::unique(colors.begin(), colors.end(), same), colors.end());
   gained_ = distribution_.count(frame, compare, colors, profile_);
   for (size_t i = 0; i < fvcs.size(); ++i)
     for_each_color(*fvcs[i], [&](uint32_t color) {
-      held_[i] += std::ranges::lower_bound(colors, color, {}, &ColorCount::color)->count;
+      held_[i] += std::ranges::lower_bound(colors, color, {}, &WantedColor::color)->count;
     });
 }
 

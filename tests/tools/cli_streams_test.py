@@ -20,7 +20,7 @@ RESULTS = {
     "run": None,
     "frames": [["-q", "-o", "-", *IMAGES]],
     "replay": None,
-    "study": [["--example"], ["paper", "-n", IMAGES[0]]],
+    "study": [["--example"]],
     "record": None,
     "info": [[TRACE], ["--json", TRACE]],
     "bench": [["-s", "red", "--rounds", "1", "-o", "-", *IMAGES]],
