@@ -1,7 +1,7 @@
 // Surface engine: the loop over a frame's blocks. One traversal serves every scheme; what several schemes
 // need is computed once.
 //
-//   frame source → block ─┬→ look-up in the CCD and other shared analyses → lanes: measure, store, check,
+//   pixel source → block ─┬→ look-up in the CCD and other shared analyses → lanes: measure, store, check,
 //   account
 //                         └→ FVC → CCD of the next frame
 #include "tilepress/surface_engine.h"
@@ -14,8 +14,8 @@
 
 #include "engine/block_runs.h"
 #include "engine/collectors.h"
-#include "engine/frame_source.h"
 #include "engine/lanes.h"
+#include "engine/pixel_source.h"
 #include "tilepress/tiler.h"
 
 namespace tilepress {
@@ -44,7 +44,7 @@ struct SurfaceEngine::State {
   std::optional<SharedAnalyses> analyses;   ///< none before the first frame
   std::vector<BlockAnalysis*> per_block{};  ///< those that see each block; the collectors load it
   Collectors collectors{};
-  FrameSource source{};
+  PixelSource source{};
   BlockRuns runs{};
   Lanes lanes{};
   uint64_t ordinal = 0;

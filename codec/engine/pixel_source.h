@@ -1,4 +1,4 @@
-// Frame source: where the pixels of a frame come from, row of tiles by row of tiles.
+// Pixel source: where the pixels of a frame come from, row of tiles by row of tiles.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace tilepress {
 
 /// Reads the frame in place if its rows are pixel words and no one compares frames; else copies it.
 /// Prefetches the rows of the next tiles either way.
-class FrameSource {
+class PixelSource {
  public:
   struct Needs {
     uint32_t tile_side = 32;     ///< pixels

@@ -1,11 +1,11 @@
-// Frame source: copy or in place, and prefetch.
-#include "engine/frame_source.h"
+// Pixel source: copy or in place, and prefetch.
+#include "engine/pixel_source.h"
 
 #include <algorithm>
 
 namespace tilepress {
 
-void FrameSource::begin_frame(const SurfaceView& frame) {
+void PixelSource::begin_frame(const SurfaceView& frame) {
   frame_ = frame;
   const uint64_t tile_bytes = uint64_t{needs_.tile_side} * frame.width * sizeof(uint32_t);
   const bool few_bytes = tile_bytes <= RowPrefetch::kMostBytes;
@@ -17,13 +17,13 @@ void FrameSource::begin_frame(const SurfaceView& frame) {
   if (needs_.whole_frame) copy_rows(0, plane_.blocks_y());
 }
 
-void FrameSource::copy_rows(uint32_t begin, uint32_t end) {
+void PixelSource::copy_rows(uint32_t begin, uint32_t end) {
   if (in_place_) return;
   changed_pixels_ += plane_.assign_rows(frame_, begin * kBlockSide, end * kBlockSide,
                                         needs_.notes_changes ? changed_blocks_.data() : nullptr);
 }
 
-void FrameSource::take_rows(uint32_t begin, uint32_t end) {
+void PixelSource::take_rows(uint32_t begin, uint32_t end) {
   if (!needs_.whole_frame) copy_rows(begin, end);
   if (!prefetches_) return;
   if (in_place_ && begin == 0) {
@@ -34,7 +34,7 @@ void FrameSource::take_rows(uint32_t begin, uint32_t end) {
 }
 
 /// Aims at the row of tiles that begins with row `begin` of blocks.
-void FrameSource::aim_prefetch(uint32_t begin) {
+void PixelSource::aim_prefetch(uint32_t begin) {
   const uint32_t y = std::min(begin * kBlockSide, frame_.height);
   prefetch_.aim(frame_, y, std::min(y + needs_.tile_side, frame_.height));
 }
