@@ -9,7 +9,7 @@ namespace tilepress {
 
 std::vector<FrequentColor> most_frequent_colors(const PixelPlane& frame, uint32_t limit) {
   ColorHistogram counts;
-  counts.clear(size_t{frame.width()} * frame.height() * 3);  // always has room
+  counts.clear(std::max<size_t>(1024, size_t{frame.width()} * frame.height() * 3));  // always has room
   for (uint32_t y = 0; y < frame.height(); ++y) {
     const uint32_t* row = frame.row(y);
     for (uint32_t x = 0; x < frame.width();) {
