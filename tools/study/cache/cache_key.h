@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "study/cache/cached_rendering.h"
+#include "study/cache/rendering.h"
 
 namespace tilepress {
 

@@ -1,10 +1,11 @@
 // Trace rendering: replays a trace once, and packs its frames while the replay goes on.
 #pragma once
 
+#include <atomic>
 #include <string>
 
 #include "study/cache/cache_key.h"
-#include "study/cache/cached_rendering.h"
+#include "study/cache/rendering.h"
 
 namespace tilepress {
 

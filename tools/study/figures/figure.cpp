@@ -1,4 +1,4 @@
-// Figure: the table of kinds, the figures of a study, and their files' texts.
+// Figure: its rows, the figures of a study, and their files' texts.
 #include "study/figures/figure.h"
 
 #include <fmt/format.h>
@@ -8,22 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "report/html_text.h"
-#include "study/figures/figure_makers.h"
 #include "tilepress/csv_table.h"
 
 namespace tilepress {
 namespace {
-
-constexpr FigureKind kKinds[] = {
-    {"metrics over time", metrics_over_time},
-    {"colour CDF", color_cdf_figure},
-    {"coverage against rate", coverage_against_rate},
-    {"rate over an axis", rate_over_axis},
-    {"relative coverage over an axis", relative_coverage_over_axis},
-    {"rates of workloads", rates_of_workloads},
-    {"means", means_of_categories},
-    {"hybrid shares", hybrid_shares},
-};
 
 void append_record(const std::vector<std::string>& cells, std::string& out) {
   for (size_t i = 0; i < cells.size(); ++i) {
@@ -62,27 +50,6 @@ std::vector<std::string> FigureTable::distinct(std::string_view column) const {
     if (const std::string& cell = text(row, column); std::find(out.begin(), out.end(), cell) == out.end())
       out.push_back(cell);
   return out;
-}
-
-std::span<const FigureKind> figure_kinds() {
-  return kKinds;
-}
-
-Result<Figure> make_figure(const StudyData& data, const FigureSpec& spec) {
-  if (spec.name.empty() || spec.name != file_slug(spec.name))
-    return Error{ErrorKind::kBadValue,
-                 fmt::format("figure '{}': a name has letters, digits, '.', '-' and '_' only", spec.name)};
-  const auto kind = std::find_if(std::begin(kKinds), std::end(kKinds),
-                                 [&](const FigureKind& known) { return spec.kind == known.name; });
-  if (kind == std::end(kKinds))
-    return Error{ErrorKind::kBadValue,
-                 fmt::format("figure {}: there is no kind of figure '{}'", spec.name, spec.kind)};
-  auto figure = kind->make(data, spec);
-  if (!figure) return about("figure " + spec.name, figure.error());
-  if (figure->table.rows.empty())
-    return Error{ErrorKind::kUnsupported,
-                 fmt::format("figure {}: the study has no results for it", spec.name)};
-  return figure;
 }
 
 std::vector<FigureSpec> figure_specs(const StudyData& data) {
