@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#define TOML_EXCEPTIONS 0
+#define TOML_EXCEPTIONS 1  // as everywhere: toml++ has functions of one name for both settings
 #include <toml++/toml.h>
 
 namespace tilepress {
@@ -80,11 +80,13 @@ std::string replay_name(const std::string& trace_path) {
 }
 
 Result<std::vector<ReplayInput>> read_manifest(const std::string& path) {
-  const toml::parse_result table = toml::parse_file(path);
-  if (!table) {
-    const auto line = table.error().source().begin.line;
+  toml::table table;
+  try {
+    table = toml::parse_file(path);
+  } catch (const toml::parse_error& error) {
+    const auto line = error.source().begin.line;
     return Error{ErrorKind::kBadValue, path + (line > 0 ? ": line " + std::to_string(line) : "") + ": " +
-                                           std::string(table.error().description())};
+                                           std::string(error.description())};
   }
   auto inputs = take_all(table, fs::path(path).parent_path());
   if (!inputs) return about(path, inputs.error());

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
-#define TOML_EXCEPTIONS 0
+#define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
 
 #include "study/configuration.h"
@@ -100,7 +100,8 @@ class StudyParser {
     for (size_t i = 0; done && i < listed.size(); ++i) {
       done = add_configurations(*root.get("configurations"), listed[i]);
     }
-    if (done) done = for_each_table(root, "category", [&](const auto& table) { return take_category(table); });
+    if (done)
+      done = for_each_table(root, "category", [&](const auto& table) { return take_category(table); });
     if (done) done = for_each_table(root, "axis", [&](const auto& table) { return take_axis(table); });
     if (done) done = take_figures(root);
     if (!done) return done.error();
@@ -193,7 +194,8 @@ class StudyParser {
     if (!spec) return at_line(*root.get("baseline"), spec.error().text);
     const std::string& named = configurations_.add(*spec);
     if (configurations_.specs().size() != study_.configurations.size())
-      return at_line(*root.get("baseline"), "baseline '" + study_.baseline + "' is no configuration of the study");
+      return at_line(*root.get("baseline"),
+                     "baseline '" + study_.baseline + "' is no configuration of the study");
     study_.baseline = named;
     return std::move(study_);
   }
@@ -205,10 +207,13 @@ class StudyParser {
 }  // namespace
 
 Result<StudyFile> parse_study(std::string_view text) {
-  const toml::parse_result table = toml::parse(text);
-  if (!table)
-    return Error{ErrorKind::kBadValue, "line " + std::to_string(table.error().source().begin.line) + ": " +
-                                           std::string(table.error().description())};
+  toml::table table;
+  try {
+    table = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    return Error{ErrorKind::kBadValue, "line " + std::to_string(error.source().begin.line) + ": " +
+                                           std::string(error.description())};
+  }
   auto study = StudyParser().parse(table);
   if (study) study->text = text;
   return study;
