@@ -5,8 +5,7 @@
 #include <cstring>
 #include <memory>
 
-#define TOML_EXCEPTIONS 1
-#include <toml++/toml.h>
+#include "toml_text.h"
 
 namespace tilepress {
 namespace {
@@ -30,15 +29,10 @@ class TomlConfig : public CLI::Config {
   std::string to_config(const CLI::App*, bool, bool, std::string) const override { return {}; }
   /// Throws CLI::ConfigError, which names the line or the key.
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
-    toml::table table;
-    try {
-      table = toml::parse(input);
-    } catch (const toml::parse_error& error) {
-      throw CLI::ConfigError("config: line " + std::to_string(error.source().begin.line) + ": " +
-                             std::string(error.description()));
-    }
+    const auto table = parse_toml([&] { return toml::parse(input); });
+    if (!table) throw CLI::ConfigError("config: " + table.error().text);
     std::vector<CLI::ConfigItem> found;
-    for (const auto& [key_node, node] : table) {
+    for (const auto& [key_node, node] : *table) {
       const std::string key(key_node.str());
       CLI::ConfigItem item;
       item.name = key;

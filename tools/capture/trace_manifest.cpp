@@ -3,17 +3,12 @@
 
 #include <filesystem>
 
-#define TOML_EXCEPTIONS 1  // as everywhere: toml++ has functions of one name for both settings
-#include <toml++/toml.h>
+#include "toml_text.h"
 
 namespace tilepress {
 namespace {
 
 namespace fs = std::filesystem;
-
-Error at_line(const toml::node& node, const std::string& reason) {
-  return {ErrorKind::kBadValue, "line " + std::to_string(node.source().begin.line) + ": " + reason};
-}
 
 /// Copies the values of `entry`, which are all texts, to the places of their keys.
 Result<void> take_texts(const toml::table& entry, const std::map<std::string_view, std::string*>& places) {
@@ -80,15 +75,9 @@ std::string replay_name(const std::string& trace_path) {
 }
 
 Result<std::vector<ReplayInput>> read_manifest(const std::string& path) {
-  toml::table table;
-  try {
-    table = toml::parse_file(path);
-  } catch (const toml::parse_error& error) {
-    const auto line = error.source().begin.line;
-    return Error{ErrorKind::kBadValue, path + (line > 0 ? ": line " + std::to_string(line) : "") + ": " +
-                                           std::string(error.description())};
-  }
-  auto inputs = take_all(table, fs::path(path).parent_path());
+  const auto table = parse_toml([&] { return toml::parse_file(path); });
+  if (!table) return about(path, table.error());
+  auto inputs = take_all(*table, fs::path(path).parent_path());
   if (!inputs) return about(path, inputs.error());
   return inputs;
 }

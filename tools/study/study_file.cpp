@@ -5,19 +5,13 @@
 #include <filesystem>
 #include <sstream>
 
-#define TOML_EXCEPTIONS 1
-#include <toml++/toml.h>
-
 #include "study/configuration.h"
 #include "study/study_assets.h"
 #include "study/text_file.h"
+#include "toml_text.h"
 
 namespace tilepress {
 namespace {
-
-Error at_line(const toml::node& node, const std::string& reason) {
-  return {ErrorKind::kBadValue, "line " + std::to_string(node.source().begin.line) + ": " + reason};
-}
 
 /// A number or text as text.
 Result<std::string> word(const toml::node& node) {
@@ -207,14 +201,9 @@ class StudyParser {
 }  // namespace
 
 Result<StudyFile> parse_study(std::string_view text) {
-  toml::table table;
-  try {
-    table = toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    return Error{ErrorKind::kBadValue, "line " + std::to_string(error.source().begin.line) + ": " +
-                                           std::string(error.description())};
-  }
-  auto study = StudyParser().parse(table);
+  const auto table = parse_toml([&] { return toml::parse(text); });
+  if (!table) return table.error();
+  auto study = StudyParser().parse(*table);
   if (study) study->text = text;
   return study;
 }
