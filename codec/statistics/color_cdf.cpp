@@ -1,9 +1,10 @@
-// Colour CDF: sorts a frame's pixels, counts runs, sorts the counts.
+// Colour CDF: sorts a frame's pixels, counts runs, sorts the counts. Coverage needs the counts alone.
 #include "tilepress/color_cdf.h"
 
 #include <algorithm>
 #include <cstdio>
 
+#include "statistics/color_distribution.h"
 #include "tilepress/plane.h"
 
 namespace tilepress {
@@ -45,6 +46,18 @@ std::vector<ColorCount> color_counts(const SurfaceView& frame) {
     return a.count != b.count ? a.count > b.count : text_order(a.color, format) < text_order(b.color, format);
   });
   return counts;
+}
+
+ColorCoverage color_coverage(const SurfaceView& frame, std::span<const uint64_t> colors) {
+  PixelPlane plane;
+  plane.assign(frame);
+  CountProfile profile;
+  profile.clear();
+  ColorDistribution().count(plane, false, {}, profile);
+  profile.close();
+  ColorCoverage coverage{profile.colors(), {}};
+  for (const uint64_t most : colors) coverage.pixels.push_back(profile.most_frequent(most));
+  return coverage;
 }
 
 std::string color_text(uint32_t color, PixelFormat format) {

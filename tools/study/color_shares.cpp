@@ -1,7 +1,10 @@
-// Colour shares: one pass over a frame's counts.
+// Colour shares: sums of the coverage of frames.
 #include "color_shares.h"
 
 #include <algorithm>
+
+#include "tilepress/color_cdf.h"
+#include "tilepress/csv_table.h"
 
 namespace tilepress {
 
@@ -11,17 +14,12 @@ ColorShares::ColorShares() {
   shares_.resize(colors_.size());
 }
 
-void ColorShares::add(const std::vector<ColorCount>& counts) {
-  uint64_t pixels = 0, covered = 0;
-  for (const ColorCount& color : counts) pixels += color.count;
-  if (pixels == 0) return;
-  size_t next = 0;
-  for (size_t i = 0; i < colors_.size(); ++i) {
-    for (; next < counts.size() && next < colors_[i]; ++next) covered += counts[next].count;
-    shares_[i] += static_cast<double>(covered) / static_cast<double>(pixels);
-  }
+void ColorShares::add(const SurfaceView& frame) {
+  const ColorCoverage coverage = color_coverage(frame, colors_);
+  const double pixels = static_cast<double>(frame.width) * frame.height;
+  for (size_t i = 0; i < colors_.size(); ++i) shares_[i] += static_cast<double>(coverage.pixels[i]) / pixels;
   ++frames_;
-  most_colors_ = std::max<uint64_t>(most_colors_, counts.size());
+  most_colors_ = std::max(most_colors_, coverage.colors);
 }
 
 std::string ColorShares::text() const {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tilepress/color_cdf.h"
+#include "tilepress/surface.h"
 
 namespace tilepress {
 
@@ -14,7 +14,7 @@ namespace tilepress {
 class ColorShares {
  public:
   ColorShares();
-  void add(const std::vector<ColorCount>& counts);
+  void add(const SurfaceView& frame);
   /// CSV: colors, pixels_share.
   std::string text() const;
 

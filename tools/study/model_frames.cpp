@@ -46,7 +46,7 @@ Result<std::optional<ModelRows>> model_frames(FrameFeed& feed, const RunOptions&
     statistics.readback_ns = frame.readback_ns;
     engine.process(frame.view, statistics);
     append_rows(statistics, options.schemes, rows);
-    if (with_colors && !statistics.warmup) colors.add(color_counts(frame.view));
+    if (with_colors && !statistics.warmup) colors.add(frame.view);
     ++rows.frame_count;
     ++frames_done;
   }

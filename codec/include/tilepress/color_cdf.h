@@ -21,6 +21,16 @@ struct ColorCount {
 /// Precondition: a modelled format.
 std::vector<ColorCount> color_counts(const SurfaceView& frame);
 
+/// How many pixels of a frame its most frequent colours cover.
+struct ColorCoverage {
+  uint64_t colors = 0;           ///< distinct colours of the frame
+  std::vector<uint64_t> pixels;  ///< covered, for each number of colours that was asked for
+};
+
+/// Returns the pixels that the n most frequent colours cover, for each n in `colors`: a part of what
+/// color_counts() tells, in less time. Precondition: a modelled format.
+ColorCoverage color_coverage(const SurfaceView& frame, std::span<const uint64_t> colors);
+
 /// Returns "#RRGGBBAA". Channels narrower than 8 bits are widened by repeating their high bits; absent alpha
 /// is FF. RGB10A2 returns its plain values "#RRRGGGBBBA": three digits per colour channel and one for alpha.
 std::string color_text(uint32_t color, PixelFormat format);

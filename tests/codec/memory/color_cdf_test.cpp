@@ -58,5 +58,18 @@ TEST(ColorCdf, SumsUpToTheFrame) {
   EXPECT_EQ(pixels, 67u * 129);
 }
 
+TEST(ColorCoverage, IsWhatTheFirstRowsCount) {
+  const auto frame = mixed_frame(67, 129, PixelFormat::kRgba8, 1);
+  const auto counts = color_counts(frame.view());
+  const std::vector<uint64_t> most = {1, 2, 10, counts.size(), counts.size() + 1};
+  const ColorCoverage coverage = color_coverage(frame.view(), most);
+  EXPECT_EQ(coverage.colors, counts.size());
+  for (size_t i = 0; i < most.size(); ++i) {
+    uint64_t pixels = 0;
+    for (size_t rank = 0; rank < most[i] && rank < counts.size(); ++rank) pixels += counts[rank].count;
+    EXPECT_EQ(coverage.pixels[i], pixels) << most[i] << " colours";
+  }
+}
+
 }  // namespace
 }  // namespace tilepress

@@ -50,19 +50,34 @@ TEST(ResultRows, ThatCannotBeReadAreNamed) {
   EXPECT_EQ(sums.error().text, "record 2: blocks: cannot read 'ten'");
 }
 
+/// A row of pixels: `counts[i]` pixels of colour i.
+std::vector<uint32_t> row_of(const std::vector<uint32_t>& counts) {
+  std::vector<uint32_t> row;
+  for (uint32_t color = 0; color < counts.size(); ++color) row.insert(row.end(), counts[color], color);
+  return row;
+}
+
+void add_row(ColorShares& shares, const std::vector<uint32_t>& row) {
+  SurfaceView view;
+  view.pixels = reinterpret_cast<const uint8_t*>(row.data());
+  view.width = static_cast<uint32_t>(row.size());
+  view.height = 1;
+  view.pitch = static_cast<ptrdiff_t>(row.size() * sizeof(uint32_t));
+  view.format = PixelFormat::kRgba8;
+  shares.add(view);
+}
+
 TEST(ColorShares, AreMeansOverFramesUpToTheCountThatCoversAll) {
   ColorShares shares;
-  shares.add({{1, 6}, {2, 3}, {3, 1}});  // 0.6, 0.9, 1
-  shares.add({{1, 10}});                 // 1
+  add_row(shares, row_of({6, 3, 1}));  // 0.6, 0.9, 1
+  add_row(shares, row_of({10}));       // 1
   EXPECT_EQ(shares.text(), "colors,pixels_share\n1,0.8\n2,0.95\n3,1\n");
   EXPECT_EQ(ColorShares().text(), "colors,pixels_share\n");
 }
 
 TEST(ColorShares, StepByTensFromTenOn) {
-  std::vector<ColorCount> counts;
-  for (uint32_t i = 0; i < 25; ++i) counts.push_back({i, 4});
   ColorShares shares;
-  shares.add(counts);
+  add_row(shares, row_of(std::vector<uint32_t>(25, 4)));
   EXPECT_NE(shares.text().find("\n9,0.36\n10,0.4\n20,0.8\n30,1\n"), std::string::npos) << shares.text();
 }
 
