@@ -7,62 +7,15 @@
 #include <fmt/format.h>
 
 #include "counted.h"
-#include "frames/image_frames.h"
-#include "study/cache/frame_cache.h"
 #include "study/study_task.h"
+#include "study/workload_size.h"
 #include "tilepress/surface_engine.h"
-#include "tilepress/trace_summary.h"
 
 namespace tilepress {
 namespace {
 
 /// What llvmpipe takes for a pixel of a simple scene, readback and compression included, on one core.
 constexpr double kRenderNsPerPixel = 20;
-
-struct WorkloadSize {
-  uint64_t frames = 0;  ///< 0 = not known
-  uint64_t pixels = 0;  ///< of all frames
-  bool to_render = false;
-  std::string note;
-};
-
-WorkloadSize size_of_cache(const std::string& path) {
-  FrameCacheReader reader;
-  if (const auto opened = reader.open(path); !opened) return {.note = opened.error().text};
-  WorkloadSize size{.frames = reader.frame_count(), .note = "in the cache"};
-  for (uint64_t i = 0; i < size.frames; ++i) size.pixels += uint64_t{reader.header(i).width} * reader.header(i).height;
-  return size;
-}
-
-WorkloadSize size_of_trace(const Workload& workload, const RenderOptions& render) {
-  const auto rendered = find_rendered(workload.trace, render);
-  if (!rendered) return {.note = rendered.error().text};
-  if (*rendered) return size_of_cache(**rendered);
-  const auto trace = summarize_trace(workload.paths[0]);
-  if (!trace) return {.note = trace.error().text};
-  WorkloadSize size{.frames = trace->frames, .to_render = true, .note = "to render"};
-  for (const TraceSurface& surface : trace->surfaces)
-    size.pixels += surface.frames * std::max(uint64_t{1}, uint64_t{surface.width} * surface.height);
-  return size;
-}
-
-WorkloadSize size_of_images(const Workload& workload) {
-  ImageFrames images;
-  if (const auto opened = images.open(workload.paths, std::nullopt); !opened) return {.note = opened.error().text};
-  WorkloadSize size{.frames = images.count().value_or(0), .note = images.streamed() ? "a stream of frames" : ""};
-  size.pixels = size.frames * images.size().pixels();
-  return size;
-}
-
-WorkloadSize size_of(const Workload& workload, const StudyOptions& options) {
-  switch (workload.kind) {
-    case WorkloadKind::kTrace: return size_of_trace(workload, options.render);
-    case WorkloadKind::kFrameCache: return size_of_cache(workload.paths[0]);
-    case WorkloadKind::kImages: return size_of_images(workload);
-    case WorkloadKind::kRun: return {.note = "its rows are the results"};
-  }
-  return {};
-}
 
 /// Nanoseconds per pixel for all configurations together, measured on a picture of areas and shades.
 double model_ns_per_pixel(const std::vector<SchemeSpec>& configurations, const ModelOptions& model) {
@@ -113,7 +66,7 @@ std::string plan_text(const StudyPlan& plan, const StudyOptions& options) {
   const size_t configurations = plan.study.configurations.size();
   for (size_t i = 0; i < plan.workloads.size(); ++i) {
     const Workload& workload = plan.workloads[i];
-    const WorkloadSize size = size_of(workload, options);
+    const WorkloadSize size = size_of_workload(workload, options.render);
     const size_t stored = stored_results(plan, i, options);
     const auto own_tasks = static_cast<uint64_t>(std::ranges::count(plan.tasks, i, &StudyTask::workload));
     out += fmt::format("{:<{}}  {:<8}  {:<11}  {:>8}  {:>5}  {:>4}/{:<4}  {}\n", workload.name, width,

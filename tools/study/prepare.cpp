@@ -6,6 +6,7 @@
 #include "frames/image_frames.h"
 #include "study/cache/frame_cache.h"
 #include "study/import_run.h"
+#include "study/workload_size.h"
 #include "study/cache/host_name.h"
 #include "study/text_file.h"
 #include "tilepress/file_digest.h"
@@ -44,6 +45,7 @@ Result<void> take_cache_file(const std::string& path, PreparedWorkload& prepared
   if (record.reason.empty() && origin.unsupported_frames > 0)
     record.reason = std::to_string(origin.unsupported_frames) + " frames have a format that is not modelled";
   if (!record.reason.empty()) record.state = "partial";
+  prepared.pixels = pixels_of(reader);
   prepared.open = cache_feed(path);
   return {};
 }
@@ -62,6 +64,7 @@ Result<void> prepare_images(const Workload& workload, PreparedWorkload& prepared
   ImageFrames images;
   if (const auto opened = images.open(workload.paths, std::nullopt); !opened) return opened;
   record.frames = images.count().value_or(0);
+  prepared.pixels = record.frames * images.size().pixels();
   std::string digests;
   for (const std::string& path : workload.paths) {
     const auto digest = sha256_of_file(path);

@@ -13,6 +13,7 @@ namespace tilepress {
 struct PreparedWorkload {
   WorkloadRecord record;  ///< its state says whether there are frames or results
   OpenFeed open;          ///< null without frames
+  uint64_t pixels = 0;    ///< of all frames; 0 = not known
   bool rendered = false;  ///< by this call
   double render_seconds = 0;
 };

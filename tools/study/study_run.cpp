@@ -1,9 +1,8 @@
-// Study run: a queue of tasks whose frames are ready, between the thread that renders and those that model.
+// Study run: workers that prepare and model, and the thread that reports progress.
 #include "study_run.h"
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <deque>
 #include <mutex>
 #include <thread>
@@ -12,60 +11,34 @@
 
 #include "streams/messages.h"
 #include "study/task_state.h"
+#include "study/work_queue.h"
+#include "study/workload_size.h"
 
 namespace tilepress {
 namespace {
 
 constexpr std::chrono::milliseconds kTickPeriod{100};
-
-struct ReadyTask {
-  const StudyTask* task;
-  const PreparedWorkload* prepared;
-};
-
-class TaskQueue {
- public:
-  void add(const ReadyTask& task) {
-    const std::lock_guard lock(mutex_);
-    tasks_.push_back(task);
-    changed_.notify_one();
-  }
-  /// No task is added after this.
-  void close() {
-    const std::lock_guard lock(mutex_);
-    closed_ = true;
-    changed_.notify_all();
-  }
-  /// Waits for the next task. Returns nothing if none is left.
-  std::optional<ReadyTask> next() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return closed_ || !tasks_.empty(); });
-    if (tasks_.empty()) return std::nullopt;
-    const ReadyTask task = tasks_.front();
-    tasks_.pop_front();
-    return task;
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<ReadyTask> tasks_;
-  bool closed_ = false;
-};
+constexpr size_t kTasksAheadOfWorker = 2;
 
 class StudyWorkers {
  public:
   StudyWorkers(const StudyPlan& plan, const StudyOptions& options, const std::atomic<int>& stop)
-      : plan_(plan), options_(options), stop_(stop) {}
+      : plan_(plan),
+        options_(options),
+        stop_(stop),
+        queue_(workloads_of_shard(), kTasksAheadOfWorker * options.jobs),
+        rendered_(plan.workloads.size()),
+        modelled_(plan.tasks.size()) {}
 
   StudyCounts run(const StudyProgress& progress) {
     running_ = std::max(1u, options_.jobs);
     std::vector<std::jthread> threads;
-    threads.emplace_back([this] { prepare_all(); });
     for (uint32_t i = 0; i < std::max(1u, options_.jobs); ++i) threads.emplace_back([this] { work(); });
+    const std::optional<uint64_t> total = all_frames();
     while (running_ > 0) {
       std::this_thread::sleep_for(kTickPeriod);
-      progress(frames_done_ + frames_rendered_, std::nullopt);
+      const uint64_t done = frames_done();
+      progress(done, total && *total >= done ? total : std::nullopt);
     }
     threads.clear();
     counts_.interrupted = stop_ != 0;
@@ -73,23 +46,60 @@ class StudyWorkers {
   }
 
  private:
-  void prepare_all() {
-    for (size_t workload = 0; workload < plan_.workloads.size() && stop_ == 0; ++workload) {
-      std::vector<const StudyTask*> tasks;
-      for (size_t i = 0; i < plan_.tasks.size(); ++i)
-        if (plan_.tasks[i].workload == workload && options_.shard.takes(i)) tasks.push_back(&plan_.tasks[i]);
-      if (tasks.empty()) continue;
-      const PreparedWorkload* prepared = prepare(plan_.workloads[workload]);
-      for (const StudyTask* task : tasks)
-        if (prepared != nullptr) queue_.add({task, prepared});
+  bool in_shard(size_t task) const { return options_.shard.takes(task); }
+
+  std::vector<const StudyTask*> tasks_of(size_t workload) const {
+    std::vector<const StudyTask*> tasks;
+    for (size_t i = 0; i < plan_.tasks.size(); ++i)
+      if (plan_.tasks[i].workload == workload && in_shard(i)) tasks.push_back(&plan_.tasks[i]);
+    return tasks;
+  }
+
+  std::vector<size_t> workloads_of_shard() const {
+    std::vector<size_t> workloads;
+    for (size_t i = 0; i < plan_.workloads.size(); ++i)
+      if (!tasks_of(i).empty()) workloads.push_back(i);
+    return workloads;
+  }
+
+  /// Frames to render and to model. Nothing if the frames of an input are not known before it is read.
+  std::optional<uint64_t> all_frames() const {
+    uint64_t all = 0;
+    for (const size_t i : workloads_of_shard()) {
+      const Workload& workload = plan_.workloads[i];
+      if (workload.kind == WorkloadKind::kRun) continue;
+      const WorkloadSize size = size_of_workload(workload, options_.render);
+      if (size.frames == 0) return std::nullopt;
+      all += size.frames * (tasks_of(i).size() + size.to_render);
     }
-    queue_.close();
+    return all;
+  }
+
+  uint64_t frames_done() const {
+    uint64_t done = 0;
+    for (const auto& frames : rendered_) done += frames;
+    for (const auto& frames : modelled_) done += frames;
+    return done;
+  }
+
+  void work() {
+    while (const auto work = queue_.next()) {
+      if (stop_ != 0) queue_.stop();
+      if (work->task == nullptr) {
+        const PreparedWorkload* prepared = prepare(work->workload);
+        queue_.prepared(prepared == nullptr ? std::vector<const StudyTask*>() : tasks_of(work->workload), prepared);
+      } else if (stop_ == 0) {
+        run(*work->task, *work->prepared);
+      }
+    }
+    --running_;
   }
 
   /// Null if there is nothing to model.
-  const PreparedWorkload* prepare(const Workload& workload) {
+  const PreparedWorkload* prepare(size_t at) {
+    const Workload& workload = plan_.workloads[at];
     StudyOptions options = options_;
-    options.render.progress = [this](uint64_t frames, std::optional<uint64_t>) { frames_rendered_ = frames; };
+    options.render.progress = [this, at](uint64_t frames, std::optional<uint64_t>) { rendered_[at] = frames; };
     PreparedWorkload prepared;
     {
       TaskLock lock;  // for `study status` alone: the frame cache has locks of its own
@@ -125,14 +135,12 @@ class StudyWorkers {
             : fmt::format("{}: {} frames from the cache", workload.name, prepared.record.frames));
   }
 
-  void work() {
-    while (const auto ready = queue_.next()) {
-      if (stop_ != 0) continue;  // empties the queue
-      const auto outcome = run_task(plan_, *ready->task, *ready->prepared, options_, stop_, frames_done_);
-      const std::lock_guard lock(mutex_);
-      take(*ready->task, outcome);
-    }
-    --running_;
+  void run(const StudyTask& task, const PreparedWorkload& prepared) {
+    std::atomic<uint64_t>& frames = modelled_[static_cast<size_t>(&task - plan_.tasks.data())];
+    const auto outcome = run_task(plan_, task, prepared, options_, stop_, frames);
+    frames = prepared.record.frames;  // those that were kept or left out, too
+    const std::lock_guard lock(mutex_);
+    take(task, outcome);
   }
 
   void take(const StudyTask& task, const Result<TaskOutcome>& outcome) {
@@ -152,11 +160,12 @@ class StudyWorkers {
   const StudyPlan& plan_;
   const StudyOptions& options_;
   const std::atomic<int>& stop_;
-  TaskQueue queue_;
-  std::deque<PreparedWorkload> prepared_;  ///< of prepare_all's thread; elements stay where they are
+  WorkQueue queue_;
+  std::vector<std::atomic<uint64_t>> rendered_;  ///< frames by workload
+  std::vector<std::atomic<uint64_t>> modelled_;  ///< frames by task
   std::mutex mutex_;
+  std::deque<PreparedWorkload> prepared_;  ///< elements stay where they are
   StudyCounts counts_;
-  std::atomic<uint64_t> frames_done_{0}, frames_rendered_{0};
   std::atomic<uint32_t> running_{0};
 };
 

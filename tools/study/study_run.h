@@ -22,8 +22,7 @@ struct StudyCounts {
 /// Frames modelled or rendered so far, and all frames once they are known.
 using StudyProgress = std::function<void(uint64_t, std::optional<uint64_t>)>;
 
-/// Runs the tasks of the shard. One thread renders, so that the tasks of a workload start while the next one is
-/// rendered; `options.jobs` threads model. Says one line for each workload or task that fails; the others go
+/// Runs the tasks of the shard. Each of `options.jobs` threads renders or models, whatever the queue has next. Says one line for each workload or task that fails; the others go
 /// on. Calls `progress` about ten times a second from this thread.
 StudyCounts run_study(const StudyPlan& plan, const StudyOptions& options, const std::atomic<int>& stop,
                       const StudyProgress& progress);
