@@ -1,6 +1,9 @@
 // Command line: CLI11 with one-line errors and exit status 2.
 #include "command_line.h"
 
+// App.hpp declares what verbs use. CLI.hpp also defines formatters and configuration files, in this file alone:
+// its code takes longer to compile than a verb.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstring>
 #include <memory>

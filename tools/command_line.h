@@ -1,7 +1,7 @@
 // Command line: CLI11 parsing that ends with an exit status, and options that take one of a few words.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <optional>
 #include <string>
 #include <utility>

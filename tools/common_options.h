@@ -1,7 +1,7 @@
 // Common options: options that several verbs share on the command line (spec §12).
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <optional>
 #include <string>
 #include <string_view>

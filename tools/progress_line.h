@@ -1,7 +1,7 @@
 // Progress line: how far a verb is, on standard error.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <chrono>
 #include <cstdint>
 #include <optional>

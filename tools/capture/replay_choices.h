@@ -1,7 +1,7 @@
 // Replay choices: the options that choose how traces are replayed.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <chrono>
 
 #include "tilepress/trace_replay.h"

@@ -1,7 +1,7 @@
 // CDF file: the colour CDF of frames as CSV.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <string>
 
 #include "tilepress/run_options.h"

@@ -1,7 +1,7 @@
 // Category rules: --category PATTERN=NAME.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // Study command: options that `tilepress study` and its sub-commands share, and how a study runs and ends.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 #include <string>
 
 #include "progress_line.h"

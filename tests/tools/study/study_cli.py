@@ -165,14 +165,14 @@ class Calls(StudyCase):
         self.assertEqual(status.returncode, 1)
         self.assertRegex(status.stdout.decode(), r"failed +long, \d configurations?: was cut off \(.*process \d+\)")
         stored = len(glob.glob(self.path("out/results/*/*.csv")))
-        self.assertGreaterEqual(stored, 4 + 2)  # all of desktop, with its metrics
+        self.assertGreaterEqual(stored, 3 + 2)  # all of desktop but one, and its metrics
         merged = self.run_command("study", "merge", "out")
         self.assertEqual(merged.returncode, 1)
         self.assertIn(b"tasks are not done", merged.stderr)
         retried = self.run_command("study", "retry", "out")
         self.assertEqual(retried.returncode, 0, retried.stderr)
         kept = int(re.search(r"(\d+) kept", retried.stderr.decode()).group(1))
-        self.assertGreaterEqual(kept, 4)
+        self.assertGreaterEqual(kept, 3)
         self.assertEqual(len(self.rows("results.csv")), 8)
         self.assertEqual(self.run_command("study", "status", "out").stdout.decode().splitlines()[1:], [])
         self.assertEqual(glob.glob(self.path("out/**/*.part"), recursive=True), [])

@@ -59,10 +59,10 @@ std::vector<uint32_t> row_of(const std::vector<uint32_t>& counts) {
 
 void add_row(ColorShares& shares, const std::vector<uint32_t>& row) {
   SurfaceView view;
-  view.pixels = reinterpret_cast<const uint8_t*>(row.data());
+  view.top_row = reinterpret_cast<const std::byte*>(row.data());
   view.width = static_cast<uint32_t>(row.size());
   view.height = 1;
-  view.pitch = static_cast<ptrdiff_t>(row.size() * sizeof(uint32_t));
+  view.pitch_bytes = static_cast<ptrdiff_t>(row.size() * sizeof(uint32_t));
   view.format = PixelFormat::kRgba8;
   shares.add(view);
 }
