@@ -36,6 +36,10 @@ inline LineWords to_line_words(const Block& block, LineOrder order, uint32_t pix
   LineWords lines;
   if (pixel_bits == 32) {
     lines.count = kBlockPixels;
+    if (order == LineOrder::kRaster) {
+      lines.words = block.pixels;
+      return lines;
+    }
     for (uint32_t i = 0; i < kBlockPixels; ++i) lines.words[i] = block.pixels[line_pixel(order, i)];
     return lines;
   }
