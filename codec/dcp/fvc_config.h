@@ -23,7 +23,9 @@ struct FvcConfig {
 };
 
 extern const std::array<SchemeKey, 6> kDcpKeys;
-/// Precondition: a specification of a scheme with kDcpKeys.
+/// The first so many decide what the FVC collects: all but `coverage`.
+constexpr size_t kFvcKeys = 5;
+/// Precondition: a specification of a scheme with the first kFvcKeys of kDcpKeys.
 FvcConfig fvc_config(const SchemeSpec& spec);
 /// See SchemeInfo::check.
 Result<void> check_dcp_keys(const SchemeSpec& spec, std::span<const std::string_view> given);

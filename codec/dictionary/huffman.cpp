@@ -10,7 +10,7 @@
 namespace tilepress {
 
 void huffman_lengths(std::span<const uint32_t> counts, std::vector<uint8_t>& lengths) {
-  constexpr size_t kMaxLeaves = 1024;
+  constexpr size_t kMaxLeaves = 1025;
   const size_t leaves = counts.size();
   assert(leaves <= kMaxLeaves);
   lengths.assign(leaves, 1);

@@ -14,7 +14,7 @@ namespace tilepress {
 /// Fibonacci number. A stored length takes 6 bits.
 constexpr uint32_t kMaxHuffmanLength = 47;
 
-/// Returns one code length per count, for at most 1024 counts. Joins the two nodes of smallest (count, id)
+/// Returns one code length per count, for at most 1025 counts. Joins the two nodes of smallest (count, id)
 /// again and again; the new node takes the next id. A single symbol has 1 bit.
 void huffman_lengths(std::span<const uint32_t> counts, std::vector<uint8_t>& lengths);
 inline std::vector<uint8_t> huffman_lengths(std::span<const uint32_t> counts) {

@@ -47,7 +47,7 @@ std::string fvc_keys() {
   return keys.str();
 }
 
-std::vector<SchemeSpec> any_schemes() {
+std::vector<SchemeSpec> any_schemes(bool eight_bit) {
   const std::string keys = fvc_keys();
   std::vector<SchemeSpec> schemes = default_schemes();
   for (const char* name : {"dcp", "adcp", "vdcp", "huffdcp", "hdcp"})
@@ -57,6 +57,10 @@ std::vector<SchemeSpec> any_schemes() {
                            "palette", "palette:entries=8", "fbc", "fbc:entries=512", "te", "bdi",
                            "bdi:order=quad", "bpc", "bpc:order=quad"})
     schemes.push_back(spec(text));
+  if (eight_bit)
+    for (const char* text : {"fpc", "fpc:order=quad", "fpcd", "cpack", "cpack:order=quad", "freqvals",
+                             "freqvals:fvc=16,policy=lru,sample=3,period=2", "hilo", "msaa"})
+      schemes.push_back(spec(text));
   return schemes;
 }
 
@@ -75,7 +79,7 @@ Trial any_trial(const std::vector<PixelFormat>& formats, int largest_width, int 
   trial.order = eight_bit && *rc::gen::arbitrary<bool>() ? ByteOrder::kBgra : ByteOrder::kRgba;
   trial.bottom_up = *rc::gen::arbitrary<bool>();
   trial.row_padding = *rc::gen::element(0, 4, 64);
-  trial.schemes = any_schemes();
+  trial.schemes = any_schemes(eight_bit);
   force_simd_target(*rc::gen::elementOf(simd_targets()));  // every instruction set gives the same bits
   const auto pattern =
       static_cast<uint32_t>(*rc::gen::resize(100, rc::gen::inRange<int>(0, patterns::kPatternCount)));
@@ -191,7 +195,13 @@ TEST(EngineOnAwkwardSurfaces, EqualsTheReferenceModel) {
                          "fbc",
                          "te",
                          "bdi",
-                         "bpc"};
+                         "bpc",
+                         "fpc",
+                         "fpcd",
+                         "cpack",
+                         "freqvals",
+                         "hilo",
+                         "msaa"};
   Trial trial{};
   trial.burst_bits = 128;
   trial.format = PixelFormat::kRgba8;

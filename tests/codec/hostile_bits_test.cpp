@@ -176,7 +176,7 @@ TEST(HostileBits, EveryTruncationOfABlockIsRefused) {
 
 TEST(HostileBits, EveryTruncationOfTheTablesIsRefused) {
   patterns::Dice dice(5);
-  for (const char* text : {"dcp", "adcp", "vdcp", "huffdcp", "hdcp"}) {
+  for (const char* text : {"dcp", "adcp", "vdcp", "huffdcp", "hdcp", "freqvals"}) {
     const Ccd ccd = some_dictionary(64, PixelFormat::kRgba8, dice);
     BlockHarness scheme(text, &ccd);
     const uint64_t whole = scheme.tables_written();

@@ -66,6 +66,10 @@ Figures Scheme::further_frame(const Picture& picture) {
       uint32_t payload = raw;
       if (spec_.name == "bdi") payload = bdi_bits(block, format_, number_of(spec_, "order", 0) == 1);
       if (spec_.name == "bpc") payload = bpc_bits(block, format_, number_of(spec_, "order", 0) == 1);
+      if (spec_.name == "fpc" || spec_.name == "fpcd" || spec_.name == "cpack")
+        payload = word_line_bits(spec_.name, block, number_of(spec_, "order", 0) == 1);
+      if (spec_.name == "hilo") payload = hilo_bits(block);
+      if (spec_.name == "msaa") payload = msaa_bits(block);
       if (spec_.name == "fbc" || (spec_.name == "palette" && frame_number_ > 0))
         payload = dictionary_bits(block);
       if (spec_.name == "te" && frame_number_ > 0) {
@@ -82,6 +86,9 @@ Figures Scheme::further_frame(const Picture& picture) {
   if (spec_.name == "te") figures.csb_bits = blocks;
   if (spec_.name == "bdi") figures.csb_bits = blocks * (raw / 512) * 4;
   if (spec_.name == "bpc") figures.csb_bits = blocks * (raw / 1024) * 7;
+  if (spec_.name == "fpc" || spec_.name == "fpcd" || spec_.name == "cpack") figures.csb_bits = blocks * 4 * 7;
+  if (spec_.name == "hilo") figures.csb_bits = blocks * 2;
+  if (spec_.name == "msaa") figures.csb_bits = blocks * 3;
   if (spec_.name == "fbc") figures.extra_bits = blocks * 3 * raw_bursts * burst_bits_;
   if (spec_.name == "te") {
     figures.palette_bits = tiles * 64;

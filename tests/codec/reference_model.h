@@ -85,8 +85,9 @@ class Scheme {
   uint32_t block_bits(const std::vector<uint32_t>& block) const;
   uint32_t vdcp_bits(const std::vector<uint32_t>& block) const;
   uint32_t ras_bits(const std::vector<uint32_t>& block) const;
+  uint32_t escaped_bits(const std::vector<uint32_t>& block) const;
   uint32_t dictionary_bits(const std::vector<uint32_t>& block) const;
-  /// palette, fbc, te, bdi, bpc.
+  /// palette, fbc, te, bdi, bpc, fpc, fpcd, cpack, hilo, msaa.
   Figures further_frame(const Picture& picture);
   SchemeSpec spec_;
   PixelFormat format_;
@@ -94,7 +95,7 @@ class Scheme {
   uint64_t frame_number_ = 0;
   Dictionary dictionary_;
   uint32_t width_ = 0;                  ///< of an index, dcp and adcp
-  std::vector<uint32_t> code_lengths_;  ///< huffdcp
+  std::vector<uint32_t> code_lengths_;  ///< huffdcp, freqvals
   bool off_ = false;                    ///< by the coverage threshold
   Picture before_;                      ///< te
 };
@@ -121,5 +122,9 @@ uint32_t ras_stream(const std::vector<uint32_t>& block, PixelFormat format, bool
 /// Bits of a block of 64 words in raster order.
 uint32_t bdi_bits(const std::vector<uint32_t>& block, PixelFormat format, bool quads);
 uint32_t bpc_bits(const std::vector<uint32_t>& block, PixelFormat format, bool quads);
+/// `scheme`: fpc, fpcd or cpack.
+uint32_t word_line_bits(const std::string& scheme, const std::vector<uint32_t>& block, bool quads);
+uint32_t hilo_bits(const std::vector<uint32_t>& block);
+uint32_t msaa_bits(const std::vector<uint32_t>& block);
 
 }  // namespace reference

@@ -183,6 +183,16 @@ uint32_t Scheme::vdcp_bits(const std::vector<uint32_t>& block) const {
   return bits;
 }
 
+/// A code for each pixel; the last code is the escape of the colours that have none.
+uint32_t Scheme::escaped_bits(const std::vector<uint32_t>& block) const {
+  uint32_t bits = 0;
+  for (const uint32_t color : block) {
+    const uint32_t index = index_of(dictionary_, color);
+    bits += index == kAbsent ? code_lengths_.back() + 32 : code_lengths_[index];
+  }
+  return std::min(bits, 2048u);
+}
+
 uint32_t Scheme::block_bits(const std::vector<uint32_t>& block) const {
   const uint32_t raw_sub_block = 4 * pixel_bits(format_);
   if (spec_.name == "red") return red_bits(block, pixel_bits(format_));
@@ -194,6 +204,7 @@ uint32_t Scheme::block_bits(const std::vector<uint32_t>& block) const {
   }
   if (off_ || !dictionary_.exists) return 16 * raw_sub_block;
   if (spec_.name == "vdcp") return vdcp_bits(block);
+  if (spec_.name == "freqvals") return escaped_bits(block);
   uint32_t bits = 0;
   for (uint32_t sub = 0; sub < 16; ++sub) {
     const uint32_t largest = largest_index(dictionary_, block, sub);
@@ -211,15 +222,21 @@ uint32_t Scheme::block_bits(const std::vector<uint32_t>& block) const {
 }
 
 Figures Scheme::frame(const Picture& picture) {
-  for (const char* name : {"palette", "fbc", "te", "bdi", "bpc"})
+  for (const char* name : {"palette", "fbc", "te", "bdi", "bpc", "fpc", "fpcd", "cpack", "hilo", "msaa"})
     if (spec_.name == name) return further_frame(picture);
   const uint32_t bits = pixel_bits(format_), m = rounded_up_log2(number_of(spec_, "fvc", 64));
   const bool palette = spec_.name != "red" && spec_.name != "ras";
-  off_ = palette && dictionary_.exists && dictionary_.coverage < spec_.share("coverage");
+  const bool escapes = spec_.name == "freqvals";
+  off_ = palette && !escapes && dictionary_.exists && dictionary_.coverage < spec_.share("coverage");
   width_ = m;
   if (spec_.name == "adcp" && dictionary_.exists) width_ = algorithm1(dictionary_, bits);
   std::vector<uint64_t> counts;
   for (const Slot& slot : dictionary_.slots) counts.push_back(slot.count);
+  if (escapes) {
+    uint64_t others = dictionary_.samples;
+    for (const uint64_t count : counts) others -= count;
+    counts.push_back(others);
+  }
   code_lengths_ = huffman_lengths(counts);
 
   Figures figures;
@@ -235,16 +252,18 @@ Figures Scheme::frame(const Picture& picture) {
     }
   uint32_t csb = 0;
   if (spec_.name == "red") csb = 2;
-  if (spec_.name == "ras")
-    csb = number_of(spec_, "sizes", 0) == 2 ? rounded_up_log2((64 * bits + burst_bits_ - 1) / burst_bits_ + 1)
-                                            : 2;
+  if (spec_.name == "ras" || escapes)
+    csb = escapes || number_of(spec_, "sizes", 0) == 2
+              ? rounded_up_log2((64 * bits + burst_bits_ - 1) / burst_bits_ + 1)
+              : 2;
   if (spec_.name == "dcp" || spec_.name == "adcp" || spec_.name == "huffdcp") csb = off_ ? 0 : 16;
   if (spec_.name == "vdcp") csb = off_ ? 0 : 16 * rounded_up_log2(m + 2);
   if (spec_.name == "hdcp") csb = off_ ? 2 : 16 * 5;
   figures.csb_bits = blocks * csb;
   if (palette && dictionary_.exists && !off_) {
     const uint64_t slots = spec_.name == "adcp" ? uint64_t{1} << width_ : dictionary_.entries;
-    figures.palette_bits = slots * (bits + 1 + (spec_.name == "huffdcp" ? 6 : 0));
+    figures.palette_bits =
+        slots * (bits + 1 + (spec_.name == "huffdcp" || escapes ? 6 : 0)) + (escapes ? 6 : 0);
   }
 
   if (palette && frame_number_ % number_of(spec_, "period", 1) == 0) {

@@ -27,6 +27,14 @@ inline constexpr const char* kSchemeTexts[] = {
     "bdi:order=quad",
     "bpc",
     "bpc:order=quad",
+    "fpc",
+    "fpc:order=quad",
+    "fpcd",
+    "cpack",
+    "freqvals",
+    "freqvals:fvc=1024",
+    "hilo",
+    "msaa",
 };
 
 }  // namespace harness
