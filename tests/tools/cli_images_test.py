@@ -181,11 +181,11 @@ class Animations(Images):
         whole = gif(4, 2, palette, [(0, 0, 4, 2, 1, None, [0] * 8), (0, 0, 4, 2, 1, None, [1] * 8)])
         self.write("a.gif", whole + b"further bytes")
         self.assertEqual(len(self.frames_of("a.gif")), 2)
-        for kept in range(6, len(whole), 5):
+        for kept in range(6, len(whole), 13):
             self.write("torn.gif", whole[:kept])
             self.refuse("torn.gif", "")
         animation = apng(4, 2, [(0, 0, 4, 2, 0, 0, self.RED * 8), (0, 0, 4, 2, 0, 0, self.GREEN * 8)])
-        for kept in range(60, len(animation) - 12, 9):
+        for kept in range(60, len(animation) - 12, 25):
             self.write("torn.png", animation[:kept])
             self.refuse("torn.png", "")
         with open(os.path.join(MOVIES, "three.webp"), "rb") as file:
@@ -212,7 +212,7 @@ class Stills(Images):
         whole = png(4, 4, scanlines(bytes(range(64)), 4, 4))
         self.write("a.png", whole + bytes(8000))
         self.assertEqual(self.frames_of("a.png"), [bytes(range(64))])
-        for kept in range(9, len(whole), 5):
+        for kept in range(9, len(whole), 13):
             self.write("torn.png", whole[:kept])
             self.refuse("torn.png", "")
 
