@@ -41,10 +41,11 @@ constexpr bool has_equal_bytes(uint32_t word) {
 
 /// Returns the bits of a word other than zero. No branches, for loops over words.
 constexpr uint32_t word_bits(uint32_t word) {
-  const bool half = extends(word, 16) | ((word & 0xFFFF) == 0) | has_two_bytes(word);
-  const bool byte = extends(word, 8) | has_equal_bytes(word);
-  uint32_t behind = half ? 16 : 32;
-  behind = byte ? 8 : behind;
+  uint32_t behind = has_two_bytes(word) ? 16 : 32;
+  behind = (word & 0xFFFF) == 0 ? 16 : behind;
+  behind = extends(word, 16) ? 16 : behind;
+  behind = has_equal_bytes(word) ? 8 : behind;
+  behind = extends(word, 8) ? 8 : behind;
   behind = extends(word, 4) ? 4 : behind;
   return kPrefixBits + behind;
 }
