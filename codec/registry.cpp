@@ -7,9 +7,9 @@ namespace {
 std::deque<SchemeInfo>& schemes() {
   // Never destroyed: engines of other threads may outlive static objects.
   static auto& registered = *new std::deque<SchemeInfo>{
-      kDcpInfo,  kAdcpInfo,    kVdcpInfo,  kHuffDcpInfo,  kRasInfo,  kRedInfo,
-      kHdcpInfo, kPaletteInfo, kFbcInfo,   kTeInfo,       kBdiInfo,  kBpcInfo,
-      kFpcInfo,  kFpcdInfo,    kCpackInfo, kFreqValsInfo, kHiloInfo, kMsaaInfo,
+      kDcpInfo,     kAdcpInfo,     kVdcpInfo, kHuffDcpInfo, kRasInfo,    kRedInfo,     kHdcpInfo,
+      kPaletteInfo, kFbcInfo,      kTeInfo,   kBdiInfo,     kBpcInfo,    kFpcInfo,     kFpcdInfo,
+      kCpackInfo,   kFreqValsInfo, kHiloInfo, kMsaaInfo,    kIntel8Info, kIntel11Info, kAmdDccInfo,
   };
   return registered;
 }

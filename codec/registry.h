@@ -8,5 +8,6 @@ namespace tilepress {
 extern const SchemeInfo kDcpInfo, kAdcpInfo, kVdcpInfo, kHuffDcpInfo, kRasInfo, kRedInfo, kHdcpInfo;
 extern const SchemeInfo kPaletteInfo, kFbcInfo, kTeInfo, kBdiInfo, kBpcInfo;
 extern const SchemeInfo kFpcInfo, kFpcdInfo, kCpackInfo, kFreqValsInfo, kHiloInfo, kMsaaInfo;
+extern const SchemeInfo kIntel8Info, kIntel11Info, kAmdDccInfo;
 
 }  // namespace tilepress

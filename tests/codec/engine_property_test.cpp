@@ -58,8 +58,9 @@ std::vector<SchemeSpec> any_schemes(bool eight_bit) {
                            "bdi:order=quad", "bpc", "bpc:order=quad"})
     schemes.push_back(spec(text));
   if (eight_bit)
-    for (const char* text : {"fpc", "fpc:order=quad", "fpcd", "cpack", "cpack:order=quad", "freqvals",
-                             "freqvals:fvc=16,policy=lru,sample=3,period=2", "hilo", "msaa"})
+    for (const char* text :
+         {"fpc", "fpc:order=quad", "fpcd", "cpack", "cpack:order=quad", "freqvals",
+          "freqvals:fvc=16,policy=lru,sample=3,period=2", "hilo", "msaa", "intel8", "intel11", "amddcc"})
       schemes.push_back(spec(text));
   return schemes;
 }
@@ -201,7 +202,10 @@ TEST(EngineOnAwkwardSurfaces, EqualsTheReferenceModel) {
                          "cpack",
                          "freqvals",
                          "hilo",
-                         "msaa"};
+                         "msaa",
+                         "intel8",
+                         "intel11",
+                         "amddcc"};
   Trial trial{};
   trial.burst_bits = 128;
   trial.format = PixelFormat::kRgba8;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "block_harness.h"
+#include "pixels/eight_bit_format.h"
 #include "scheme_texts.h"
 
 using namespace harness;
@@ -121,7 +122,10 @@ TEST(HostileBits, RandomBlocksAreDecodedOrRefused) {
     for (const PixelFormat format : kFormats) {
       const Ccd ccd = some_dictionary(entries_of(text), format, dice);
       const BlockHarness scheme(text, &ccd, format);
-      ASSERT_TRUE(scheme.tables_accepted()) << text;
+      const bool supported =
+          has_eight_bit_channels(traits(format)) || !reference::is_of_hardware(parsed(text).name);
+      ASSERT_EQ(scheme.tables_accepted(), supported) << text;
+      if (!supported) continue;
       for (int round = 0; round < 300; ++round) {
         Encoded bits;
         bits.payload = random_bytes(dice, dice.below(280));

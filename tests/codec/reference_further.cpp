@@ -70,6 +70,7 @@ Figures Scheme::further_frame(const Picture& picture) {
         payload = word_line_bits(spec_.name, block, number_of(spec_, "order", 0) == 1);
       if (spec_.name == "hilo") payload = hilo_bits(block);
       if (spec_.name == "msaa") payload = msaa_bits(block);
+      if (is_of_hardware(spec_.name)) payload = hardware_bits(block, spec_.name);
       if (spec_.name == "fbc" || (spec_.name == "palette" && frame_number_ > 0))
         payload = dictionary_bits(block);
       if (spec_.name == "te" && frame_number_ > 0) {
@@ -89,6 +90,7 @@ Figures Scheme::further_frame(const Picture& picture) {
   if (spec_.name == "fpc" || spec_.name == "fpcd" || spec_.name == "cpack") figures.csb_bits = blocks * 4 * 7;
   if (spec_.name == "hilo") figures.csb_bits = blocks * 2;
   if (spec_.name == "msaa") figures.csb_bits = blocks * 3;
+  if (is_of_hardware(spec_.name)) figures.csb_bits = blocks * hardware_csb_bits(spec_.name);
   if (spec_.name == "fbc") figures.extra_bits = blocks * 3 * raw_bursts * burst_bits_;
   if (spec_.name == "te") {
     figures.palette_bits = tiles * 64;

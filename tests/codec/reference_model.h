@@ -87,7 +87,7 @@ class Scheme {
   uint32_t ras_bits(const std::vector<uint32_t>& block) const;
   uint32_t escaped_bits(const std::vector<uint32_t>& block) const;
   uint32_t dictionary_bits(const std::vector<uint32_t>& block) const;
-  /// palette, fbc, te, bdi, bpc, fpc, fpcd, cpack, hilo, msaa.
+  /// palette, fbc, te, bdi, bpc, fpc, fpcd, cpack, hilo, msaa, and the formats of hardware.
   Figures further_frame(const Picture& picture);
   SchemeSpec spec_;
   PixelFormat format_;
@@ -126,5 +126,9 @@ uint32_t bpc_bits(const std::vector<uint32_t>& block, PixelFormat format, bool q
 uint32_t word_line_bits(const std::string& scheme, const std::vector<uint32_t>& block, bool quads);
 uint32_t hilo_bits(const std::vector<uint32_t>& block);
 uint32_t msaa_bits(const std::vector<uint32_t>& block);
+/// intel8, intel11, amddcc.
+bool is_of_hardware(const std::string& scheme);
+uint32_t hardware_bits(const std::vector<uint32_t>& block, const std::string& scheme);
+uint32_t hardware_csb_bits(const std::string& scheme);
 
 }  // namespace reference

@@ -224,6 +224,7 @@ uint32_t Scheme::block_bits(const std::vector<uint32_t>& block) const {
 Figures Scheme::frame(const Picture& picture) {
   for (const char* name : {"palette", "fbc", "te", "bdi", "bpc", "fpc", "fpcd", "cpack", "hilo", "msaa"})
     if (spec_.name == name) return further_frame(picture);
+  if (is_of_hardware(spec_.name)) return further_frame(picture);
   const uint32_t bits = pixel_bits(format_), m = rounded_up_log2(number_of(spec_, "fvc", 64));
   const bool palette = spec_.name != "red" && spec_.name != "ras";
   const bool escapes = spec_.name == "freqvals";

@@ -35,6 +35,9 @@ inline constexpr const char* kSchemeTexts[] = {
     "freqvals:fvc=1024",
     "hilo",
     "msaa",
+    "intel8",
+    "intel11",
+    "amddcc",
 };
 
 }  // namespace harness
