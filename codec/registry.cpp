@@ -16,6 +16,11 @@ std::deque<SchemeInfo>& schemes() {
 
 }  // namespace
 
+const char* name_of(SchemeGroup group) {
+  constexpr const char* kNames[kSchemeGroups] = {"paper", "literature", "hardware", "ours"};
+  return kNames[static_cast<size_t>(group)];
+}
+
 const std::deque<SchemeInfo>& scheme_registry() {
   return schemes();
 }
@@ -24,6 +29,15 @@ const SchemeInfo* find_scheme(std::string_view name) {
   for (const SchemeInfo& scheme : schemes())
     if (name == scheme.name) return &scheme;
   return nullptr;
+}
+
+std::vector<std::string> unsupported_schemes(std::span<const SchemeSpec> schemes, PixelFormat format) {
+  std::vector<std::string> lines;
+  for (const SchemeSpec& spec : schemes)
+    if (!find_scheme(spec.name)->supports(format))
+      lines.push_back(spec.text + ": skipped: the scheme supports RGBA8 and RGBX8 only, the surface is " +
+                      std::string(traits(format).name));
+  return lines;
 }
 
 Result<void> register_scheme(const SchemeInfo& info) {

@@ -23,6 +23,7 @@ void print_json() {
                       {"summary", key.summary}});
     list.push_back({{"name", scheme.name},
                     {"label", scheme.label},
+                    {"group", name_of(scheme.group)},
                     {"summary", scheme.summary},
                     {"source", scheme.source},
                     {"keys", keys}});
@@ -30,13 +31,29 @@ void print_json() {
   std::printf("%s\n", list.dump(2).c_str());
 }
 
-void print_text() {
-  for (const SchemeInfo& scheme : scheme_registry()) {
-    std::printf("%-9s %s\n          %s\n", scheme.name, scheme.summary, scheme.source);
-    std::string keys;
-    for (const SchemeKey& key : scheme.keys) keys += std::string(keys.empty() ? "" : ", ") + key.name;
-    if (!keys.empty()) std::printf("          keys: %s\n", keys.c_str());
+void print_scheme(const SchemeInfo& scheme) {
+  std::printf("  %-9s %s\n            %s\n", scheme.name, scheme.summary, scheme.source);
+  std::string keys;
+  for (const SchemeKey& key : scheme.keys) keys += std::string(keys.empty() ? "" : ", ") + key.name;
+  if (!keys.empty()) std::printf("            keys: %s\n", keys.c_str());
+  if (scheme.eight_bit_only) std::printf("            formats: RGBA8 and RGBX8 only\n");
+}
+
+void print_groups() {
+  for (size_t i = 0; i < kSchemeGroups; ++i) {
+    const auto group = static_cast<SchemeGroup>(i);
+    bool heading = false;
+    for (const SchemeInfo& scheme : scheme_registry()) {
+      if (scheme.group != group) continue;
+      if (!heading) std::printf("%s%s:\n", i == 0 ? "" : "\n", name_of(group));
+      heading = true;
+      print_scheme(scheme);
+    }
   }
+}
+
+void print_text() {
+  print_groups();
   std::printf("\nKeys:\n  %-9s %-23s %-8s %s\n", "key", "values", "default", "");
   std::set<std::string_view> printed;  // schemes of a family share keys
   for (const SchemeInfo& scheme : scheme_registry())

@@ -200,6 +200,7 @@ class BdiDecoder final : public BlockDecoder {
 const SchemeInfo kBdiInfo = {.name = "bdi",
                              .label = "BDI",
                              .family = "lines",
+                             .group = SchemeGroup::kLiterature,
                              .summary = "base-delta-immediate on 64-byte lines of the block, masks counted",
                              .source = "Pekhimenko et al. 2012",
                              .make_encoder = make_encoder<BdiEncoder>,

@@ -25,6 +25,7 @@ struct BpcLine {
 const SchemeInfo kBpcInfo = {.name = "bpc",
                              .label = "BPC",
                              .family = "lines",
+                             .group = SchemeGroup::kLiterature,
                              .summary = "bit-plane compression of 128-byte lines of the block",
                              .source = "Kim et al. 2016",
                              .make_encoder = make_encoder<SizedLineEncoder<BpcLine>>,

@@ -67,6 +67,7 @@ class HuffDcpDecoder final : public BlockDecoder {
 const SchemeInfo kHuffDcpInfo = {.name = "huffdcp",
                                  .label = "HuffDCP",
                                  .family = "dcp",
+                                 .group = SchemeGroup::kPaper,
                                  .summary = "Huffman codes over the CCD, built from the FVC's counts",
                                  .source = "Gubran et al., Methodology",
                                  .make_encoder = make_encoder<HuffDcpEncoder>,

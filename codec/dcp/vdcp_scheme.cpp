@@ -71,6 +71,7 @@ const SchemeInfo kVdcpInfo = {
     .name = "vdcp",
     .label = "VDCP",
     .family = "dcp",
+    .group = SchemeGroup::kPaper,
     .summary = "palette indices of a width chosen per sub-block, recorded in the CSB",
     .source = "Gubran et al., Variable DCP",
     .make_encoder = make_encoder<VdcpEncoder>,

@@ -8,13 +8,17 @@
 
 namespace tilepress {
 
-void Lanes::open(std::span<const SchemeSpec> specs, const ModelOptions& options, SharedAnalyses& analyses) {
+void Lanes::open(std::span<const SchemeSpec> specs, PixelFormat format, const ModelOptions& options,
+                 SharedAnalyses& analyses) {
   options_ = options;
   burst_shift_ = static_cast<uint32_t>(std::countr_zero(options.burst_bits));
   for (const SchemeSpec& spec : specs) {
     const SchemeInfo* info = find_scheme(spec.name);
     assert(info != nullptr);
-    Lane lane{.spec = spec, .encoder = info->make_encoder(spec, analyses.format(), options)};
+    const size_t index = skipped_.size();
+    skipped_.push_back(!info->supports(format));
+    if (skipped_.back()) continue;
+    Lane lane{.spec = spec, .index = index, .encoder = info->make_encoder(spec, analyses.format(), options)};
     if (options.verify) lane.decoder = info->make_decoder(spec, analyses.format(), options);
     lane.encoder->subscribe(analyses);
     const SchemeNeeds needs = lane.encoder->needs();
@@ -32,16 +36,17 @@ void Lanes::begin_frame(const FrameContext& frame, std::span<CompressedSurface> 
   stores_ = !surfaces.empty();
   blocks_ = frame.plane.blocks();
   raw_block_bits_ = kBlockPixels * traits(frame.plane.format()).pixel_bits;
-  out.assign(lanes_.size(), SchemeStatistics{});
+  out.assign(skipped_.size(), SchemeStatistics{});
+  for (size_t i = 0; i < skipped_.size(); ++i) out[i].skipped = skipped_[i];
   if (block_bits != nullptr) {
     block_bits->blocks_x = frame.plane.blocks_x();
     block_bits->blocks_y = frame.plane.blocks_y();
     block_bits->raw_bits = raw_block_bits_;
-    block_bits->schemes.resize(lanes_.size());
+    block_bits->schemes.resize(skipped_.size());
     for (auto& plane : block_bits->schemes) plane.resize(blocks_);
   }
-  for (size_t i = 0; i < lanes_.size(); ++i)
-    begin_lane(lanes_[i], frame, stores_ ? &surfaces[i] : nullptr, out[i]);
+  for (Lane& lane : lanes_)
+    begin_lane(lane, frame, stores_ ? &surfaces[lane.index] : nullptr, out[lane.index]);
 }
 
 void Lanes::begin_lane(Lane& lane, const FrameContext& frame, CompressedSurface* surface,
@@ -62,11 +67,10 @@ void Lanes::begin_lane(Lane& lane, const FrameContext& frame, CompressedSurface*
 }
 
 void Lanes::take(const BlockContext& block, uint32_t place) {
-  for (size_t i = 0; i < lanes_.size(); ++i) {
-    Lane& lane = lanes_[i];
+  for (Lane& lane : lanes_) {
     const uint32_t payload_bits =
         stores_ ? lane.store.put(*lane.encoder, block) : lane.encoder->measure(block);
-    SchemeStatistics& added = block.uniform ? lane.solids[place] : (*out_)[i];
+    SchemeStatistics& added = block.uniform ? lane.solids[place] : (*out_)[lane.index];
     if (block.uniform) {
       added = {};
       if (stores_) lane.store.keep(place);
@@ -75,9 +79,9 @@ void Lanes::take(const BlockContext& block, uint32_t place) {
     added.bursts += (payload_bits + options_.burst_bits - 1) >> burst_shift_;
     lane.encoder->account(block, payload_bits, added);
     if (lane.decoder) check_block(lane, block, payload_bits, added);
-    if (block.uniform) (*out_)[i].add(added, 1);
+    if (block.uniform) (*out_)[lane.index].add(added, 1);
     if (block_bits_ != nullptr)
-      block_bits_->schemes[i][size_t{block.by} * block_bits_->blocks_x + block.bx] =
+      block_bits_->schemes[lane.index][size_t{block.by} * block_bits_->blocks_x + block.bx] =
           static_cast<uint16_t>(payload_bits);
   }
 }
@@ -86,23 +90,23 @@ void Lanes::take_repeats(uint32_t place, uint32_t bx, uint32_t count, uint32_t b
   if (stores_)
     for (Lane& lane : lanes_) lane.store.put_again(place, bx, bx + count, by);
   if (block_bits_ != nullptr)
-    for (size_t i = 0; i < lanes_.size(); ++i)
-      std::fill_n(block_bits_->schemes[i].begin() + (ptrdiff_t{by} * block_bits_->blocks_x + bx), count,
-                  static_cast<uint16_t>(lanes_[i].solids[place].payload_bits));
+    for (const Lane& lane : lanes_)
+      std::fill_n(block_bits_->schemes[lane.index].begin() + (ptrdiff_t{by} * block_bits_->blocks_x + bx),
+                  count, static_cast<uint16_t>(lane.solids[place].payload_bits));
 }
 
 void Lanes::settle(uint32_t place, uint64_t repeats) {
   if (repeats == 0) return;
-  for (size_t i = 0; i < lanes_.size(); ++i) (*out_)[i].add(lanes_[i].solids[place], repeats);
+  for (const Lane& lane : lanes_) (*out_)[lane.index].add(lane.solids[place], repeats);
 }
 
 void Lanes::end_frame() {
-  for (size_t i = 0; i < lanes_.size(); ++i) {
-    SchemeStatistics& scheme = (*out_)[i];
+  for (const Lane& lane : lanes_) {
+    SchemeStatistics& scheme = (*out_)[lane.index];
     scheme.blocks = blocks_;
     scheme.raw_bits = blocks_ * raw_block_bits_;
-    scheme.csb_bits = blocks_ * lanes_[i].csb_bits;
-    scheme.fvc = lanes_[i].encoder->fvc_figures();
+    scheme.csb_bits = blocks_ * lane.csb_bits;
+    scheme.fvc = lane.encoder->fvc_figures();
   }
 }
 

@@ -16,8 +16,10 @@ namespace tilepress {
 
 class Lanes {
  public:
-  /// Makes the encoders, which subscribe to `analyses`; and the decoders, if blocks are verified.
-  void open(std::span<const SchemeSpec> specs, const ModelOptions& options, SharedAnalyses& analyses);
+  /// Makes the encoders of the schemes that support `format`, which subscribe to `analyses`; and the
+  /// decoders, if blocks are verified.
+  void open(std::span<const SchemeSpec> specs, PixelFormat format, const ModelOptions& options,
+            SharedAnalyses& analyses);
   /// A need is set if one scheme has it. Valid after open().
   const SchemeNeeds& needs() const { return needs_; }
 
@@ -37,6 +39,7 @@ class Lanes {
  private:
   struct Lane {
     SchemeSpec spec;
+    size_t index;  ///< among all schemes: those that do not support the format have no lane
     std::unique_ptr<BlockEncoder> encoder;
     std::unique_ptr<BlockDecoder> decoder{};  ///< only with verify
     uint32_t csb_bits = 0;
@@ -47,6 +50,7 @@ class Lanes {
   void check_block(Lane& lane, const BlockContext& block, uint32_t payload_bits, SchemeStatistics& added);
 
   std::vector<Lane> lanes_;
+  std::vector<bool> skipped_;  ///< by scheme
   SchemeNeeds needs_;
   ModelOptions options_;
   BlockCheck check_;

@@ -56,7 +56,7 @@ struct SurfaceEngine::State {
   std::span<CompressedSurface> surfaces{};
   uint32_t next_row = 0;  ///< of blocks
 
-  void open(const FormatTraits& format);
+  void open(PixelFormat format);
   void begin_frame();
   void take_tiles();
   void visit_block(uint32_t bx, uint32_t by);
@@ -66,11 +66,11 @@ struct SurfaceEngine::State {
   void end_frame();
 };
 
-void SurfaceEngine::State::open(const FormatTraits& format) {
-  analyses.emplace(format);
+void SurfaceEngine::State::open(PixelFormat format) {
+  analyses.emplace(traits(format));
   analyses->provide<CcdSource>(collectors);
-  collectors.open(format, options.frame_metrics);
-  lanes.open(specs, options, *analyses);
+  collectors.open(traits(format), options.frame_metrics);
+  lanes.open(specs, format, options, *analyses);
   bool notes_changes = false;
   analyses->for_each([&](BlockAnalysis& analysis) {
     if (&analysis == &collectors) return;
@@ -85,7 +85,7 @@ void SurfaceEngine::State::open(const FormatTraits& format) {
 }
 
 void SurfaceEngine::State::begin_frame() {
-  if (!analyses) open(traits(frame.format));
+  if (!analyses) open(frame.format);
   source.begin_frame(frame);
   out->width = frame.width;
   out->height = frame.height;
@@ -181,7 +181,7 @@ uint64_t SurfaceEngine::frames() const {
 }
 
 std::vector<uint64_t> SurfaceEngine::history(uint64_t ordinal, PixelFormat format) {
-  if (!state_->analyses) state_->open(traits(format));
+  if (!state_->analyses) state_->open(format);
   std::vector<uint64_t> frames;
   if (ordinal == 0) return frames;
   frames.push_back(ordinal - 1);

@@ -89,6 +89,7 @@ const SchemeInfo kFbcInfo = {
     .name = "fbc",
     .label = "FBC",
     .family = "fbc",
+    .group = SchemeGroup::kLiterature,
     .summary = "the frame's own Huffman dictionary, built by further passes over the raw surface",
     .source = "Shim et al. 2005, as described in Gubran et al.",
     .make_encoder = make_encoder<FbcEncoder>,

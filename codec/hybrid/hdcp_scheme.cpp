@@ -116,6 +116,7 @@ constexpr const char* kAddedColumns[] = {"raw_blocks"};
 const SchemeInfo kHdcpInfo = {.name = "hdcp",
                               .label = "HDCP",
                               .family = "hybrid",
+                              .group = SchemeGroup::kPaper,
                               .summary = "per block the one of VDCP and RAS with fewer bursts",
                               .source = "Gubran et al., Hybrid Schemes",
                               .make_encoder = make_encoder<HdcpEncoder>,

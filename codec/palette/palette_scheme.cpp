@@ -162,6 +162,7 @@ const SchemeInfo kPaletteInfo = {
     .name = "palette",
     .label = "Palette",
     .family = "palette",
+    .group = SchemeGroup::kLiterature,
     .summary = "indices into a palette fixed by the user: a file, or the first frame's colours",
     .source = "Danielson 1998, as described in Gubran et al.",
     .make_encoder = make_encoder<PaletteEncoder>,

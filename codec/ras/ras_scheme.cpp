@@ -74,6 +74,7 @@ const SchemeInfo kRasInfo = {
     .name = "ras",
     .label = "RAS",
     .family = "ras",
+    .group = SchemeGroup::kPaper,
     .summary = "median-edge prediction and Golomb-Rice codes, rounded up to size classes",
     .source = "Rasmusson et al. 2007, with the settings of Gubran et al.",
     .make_encoder = make_encoder<RasEncoder>,

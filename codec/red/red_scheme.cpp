@@ -84,6 +84,7 @@ class RedDecoder final : public BlockDecoder {
 const SchemeInfo kRedInfo = {.name = "red",
                              .label = "RED",
                              .family = "red",
+                             .group = SchemeGroup::kPaper,
                              .summary = "uniform 4x2 regions 8:1, else uniform 2x2 regions 4:1, else raw",
                              .source = "NVIDIA, as described in Gubran et al.",
                              .make_encoder = make_encoder<RedEncoder>,

@@ -133,6 +133,7 @@ void append_frames_row(const FrameStatistics& frame, std::string& out) {
 void append_schemes_rows(const FrameStatistics& frame, const std::vector<std::string>& scheme_names,
                          std::string& out) {
   for (size_t i = 0; i < frame.schemes.size(); ++i) {
+    if (frame.schemes[i].skipped) continue;
     const SchemeRow row{frame.frame, frame.surface, scheme_names[i], frame.warmup, frame.schemes[i]};
     append_csv_fields(kSchemeColumns, row, out);
     const std::string_view name = row.scheme.substr(0, row.scheme.find(':'));

@@ -118,6 +118,7 @@ class TeDecoder final : public BlockDecoder {
 const SchemeInfo kTeInfo = {.name = "te",
                             .label = "TE",
                             .family = "te",
+                            .group = SchemeGroup::kHardware,
                             .summary = "16x16 tiles whose 64-bit checksum did not change are not written",
                             .source = "ARM transaction elimination",
                             .make_encoder = make_encoder<TeEncoder>,

@@ -9,8 +9,10 @@
 #include "frames/stop_watch.h"
 #include "frames/verify_error.h"
 #include "streams/ending_signals.h"
+#include "streams/messages.h"
 #include "streams/standard_streams.h"
 #include "tilepress/frame_pictures.h"
+#include "tilepress/scheme.h"
 #include "tilepress/statistics_rows.h"
 
 namespace tilepress {
@@ -61,6 +63,8 @@ Result<void> FramesRun::open(const RunInfo& info) {
 }
 
 Result<bool> FramesRun::process() {
+  for (const std::string& line : unsupported_schemes(options_.run.schemes, images_.format()))
+    show("tilepress: " + line + "\n");
   return images_.streamed() ? process_stream() : process_batch();
 }
 

@@ -10,6 +10,7 @@
 #include "frames/image_frames.h"
 #include "streams/output_file.h"
 #include "tilepress/csv_table.h"
+#include "tilepress/scheme.h"
 #include "tilepress/simd.h"
 #include "verb.h"
 
@@ -138,6 +139,8 @@ int verb_bench(int argc, char** argv) {
     if (!frames) return fail(kExitFailed, frames.error());
     if (frames->pixels.empty())
       return fail(kExitNothingCaptured, set.name + ": --frames and --every leave no frame");
+    if (const auto lines = unsupported_schemes(options.run.schemes, frames->format); !lines.empty())
+      return fail(kExitFailed, set.name + ": " + lines.front());
     const std::vector<BenchRow> rows =
         bench_set(*frames, options.run.schemes, options.run.model, options.rounds);
     show(table_text(set.name, *frames, rows));

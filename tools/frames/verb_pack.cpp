@@ -79,8 +79,9 @@ std::string summary_text(const PackOptions& options, const ImageFrames& images, 
       fmt::format("{}: {} of {} {}, {}\n", options.output, counted(frames, "frame"), images.size().text(),
                   traits(images.format()).name, options.run.schemes.front().text);
   out += fmt::format("  raw      {:>12} bytes\n", bytes(totals.all.raw_bits));
-  out += fmt::format("  payload  {:>12} bytes, CSB {}, tables {}; in bursts {}\n", bytes(totals.all.payload_bits),
-                     bytes(totals.all.csb_bits), bytes(totals.all.palette_bits), bytes(totals.all.moved_bits()));
+  out += fmt::format("  payload  {:>12} bytes, CSB {}, tables {}; in bursts {}\n",
+                     bytes(totals.all.payload_bits), bytes(totals.all.csb_bits),
+                     bytes(totals.all.palette_bits), bytes(totals.all.moved_bits()));
   out += fmt::format("  file     {:>12} bytes\n", file_bytes);
   if (totals.measured.raw_bits > 0)
     out += fmt::format("  rate     {:>12.3f} without the first frame\n", totals.measured.rate());
@@ -94,6 +95,8 @@ int pack(const PackOptions& options) {
   ImageFrames images;
   if (const auto opened = images.open(options.images, options.size, options.raw_format); !opened)
     return fail(kExitFailed, opened.error());
+  if (const auto lines = unsupported_schemes(options.run.schemes, images.format()); !lines.empty())
+    return fail(kExitFailed, lines.front());
   std::ofstream file(pending.path(), std::ios::binary | std::ios::trunc);
   if (!file) return fail(kExitFailed, options.output + ": " + std::strerror(errno));
   PackedFileWriter writer(file);
@@ -107,9 +110,8 @@ int pack(const PackOptions& options) {
   return kExitDone;
 }
 
-const std::map<std::string, PixelFormat> kRawFormats = {{"rgba", PixelFormat::kRgba8},
-                                                        {"rgb565", PixelFormat::kRgb565},
-                                                        {"rgb10a2", PixelFormat::kRgb10a2}};
+const std::map<std::string, PixelFormat> kRawFormats = {
+    {"rgba", PixelFormat::kRgba8}, {"rgb565", PixelFormat::kRgb565}, {"rgb10a2", PixelFormat::kRgb10a2}};
 
 }  // namespace
 

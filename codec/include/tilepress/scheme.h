@@ -147,11 +147,23 @@ struct SchemeKey {
   std::string default_value() const;
 };
 
+/// Where a scheme comes from. Help, reports and figures list the schemes group by group, in this order.
+enum class SchemeGroup : uint8_t {
+  kPaper,       ///< the paper's own schemes and the ones that it compares with
+  kLiterature,  ///< published elsewhere
+  kHardware,    ///< in shipping GPUs: documented, or reverse engineered
+  kOurs,        ///< made for this program, or registered at run time
+};
+constexpr size_t kSchemeGroups = 4;
+/// Returns `paper`, `literature`, `hardware` or `ours`.
+const char* name_of(SchemeGroup group);
+
 /// One scheme: everything that the command, the CSV files and the report know about it.
 struct SchemeInfo {
-  const char* name;     ///< without ':' and ','
-  const char* label;    ///< for reports
-  const char* family;   ///< schemes of one family stand together in reports
+  const char* name;    ///< without ':' and ','
+  const char* label;   ///< for reports
+  const char* family;  ///< schemes of one family stand together in reports
+  SchemeGroup group = SchemeGroup::kOurs;
   const char* summary;  ///< one sentence
   const char* source;   ///< paper section or publication
   std::unique_ptr<BlockEncoder> (*make_encoder)(const SchemeSpec&, const FormatTraits&, const ModelOptions&);
@@ -171,7 +183,16 @@ struct SchemeInfo {
   }
   bool has_dcp_structures = false;  ///< FVC, CCD and rCCD, whose energy the paper states
   bool needs_frame_before = false;  ///< a frame's bits alone do not restore it: use decode_at
+  bool eight_bit_only = false;      ///< defined for RGBA8 and RGBX8 pixels only
+
+  /// False: the engine skips the scheme on surfaces of this format, and there are no rows.
+  bool supports(PixelFormat format) const {
+    return !eight_bit_only || format == PixelFormat::kRgba8 || format == PixelFormat::kRgbx8;
+  }
 };
+
+/// One line for each scheme that does not support the format: the engine skips it, and it has no rows.
+std::vector<std::string> unsupported_schemes(std::span<const SchemeSpec> schemes, PixelFormat format);
 
 /// For SchemeInfo::make_encoder and make_decoder: constructs a T from their parameters.
 template <class T>

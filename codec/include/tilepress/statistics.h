@@ -43,6 +43,7 @@ struct SchemeStatistics {
   OwnCounts own{};              ///< what SchemeInfo::columns names
   uint64_t checked_blocks = 0;  ///< --verify: blocks encoded, decoded and compared
   uint64_t mismatched_blocks = 0;
+  bool skipped = false;  ///< the scheme does not support the surface's format; all else is 0, no row
   /// Of one frame in which the scheme's FVC collected and frame metrics were on; sums have none.
   std::optional<FvcFigures> fvc{};
 

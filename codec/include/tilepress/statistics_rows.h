@@ -31,7 +31,7 @@ std::span<const CsvColumn<SchemeRow>> scheme_check_columns();
 std::string frames_csv_header();
 std::string schemes_csv_header();
 void append_frames_row(const FrameStatistics& frame, std::string& out);
-/// One row per scheme; scheme_names[i] is the specification of frame.schemes[i].
+/// One row per scheme that was not skipped; scheme_names[i] is the specification of frame.schemes[i].
 void append_schemes_rows(const FrameStatistics& frame, const std::vector<std::string>& scheme_names,
                          std::string& out);
 

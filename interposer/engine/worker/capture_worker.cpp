@@ -9,6 +9,7 @@
 #include "interposer/run/descriptors.h"
 #include "interposer/system_calls.h"
 #include "tilepress/run_folder.h"
+#include "tilepress/scheme.h"
 
 namespace tilepress {
 
@@ -144,6 +145,8 @@ Result<void> CaptureWorker::process(const CapturedFrame& frame) {
   const bool may_yield = options_.on_full == OnFull::kBlock && surface != nullptr;
   if (surface == nullptr) {
     if (Result<void> done = tables_.append_surface(frame); !done) return done;
+    for (const std::string& line : unsupported_schemes(options_.schemes, frame.view.format))
+      log_.warn("surface " + std::to_string(frame.surface) + ": " + line);
     surface = &surfaces_
                    .insert_or_assign(frame.window,
                                      Surface{frame.surface, SurfaceEngine(options_.schemes, options_.model)})
