@@ -118,10 +118,12 @@ const SchemeInfo kAmdDccInfo = {
     .name = "amddcc",
     .label = "AMD DCC",
     .family = "amd",
+    .group = SchemeGroup::kHardware,
     .summary =
         "AMD's delta colour compression (Renoir), as reverse engineered: two to four lines in 64 bytes",
     .source = "Wang et al. 2024 (GPU.zip), as reverse engineered",
     .make_encoder = make_encoder<AmdDccEncoder>,
-    .make_decoder = make_decoder<AmdDccDecoder>};
+    .make_decoder = make_decoder<AmdDccDecoder>,
+    .eight_bit_only = true};
 
 }  // namespace tilepress

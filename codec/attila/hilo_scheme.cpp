@@ -130,9 +130,11 @@ class HiloDecoder final : public BlockDecoder {
 const SchemeInfo kHiloInfo = {.name = "hilo",
                               .label = "HiLo",
                               .family = "attila",
+                              .group = SchemeGroup::kLiterature,
                               .summary = "pixel words whose high parts are near the least or the greatest",
                               .source = "ATTILA GPU simulator",
                               .make_encoder = make_encoder<HiloEncoder>,
-                              .make_decoder = make_decoder<HiloDecoder>};
+                              .make_decoder = make_decoder<HiloDecoder>,
+                              .eight_bit_only = true};
 
 }  // namespace tilepress

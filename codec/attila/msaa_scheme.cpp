@@ -121,9 +121,11 @@ const SchemeInfo kMsaaInfo = {
     .name = "msaa",
     .label = "MSAA",
     .family = "attila",
+    .group = SchemeGroup::kLiterature,
     .summary = "runs of equal pixels, or of two colours, of one length for the block",
     .source = "ATTILA GPU simulator",
     .make_encoder = make_encoder<MsaaEncoder>,
-    .make_decoder = make_decoder<MsaaDecoder>};
+    .make_decoder = make_decoder<MsaaDecoder>,
+    .eight_bit_only = true};
 
 }  // namespace tilepress

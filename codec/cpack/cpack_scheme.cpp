@@ -177,10 +177,12 @@ struct CpackLine {
 const SchemeInfo kCpackInfo = {.name = "cpack",
                                .label = "C-Pack",
                                .family = "lines",
+                               .group = SchemeGroup::kLiterature,
                                .summary = "words of 64-byte lines matched against the line's earlier words",
                                .source = "Chen et al. 2010",
                                .make_encoder = make_encoder<SizedLineEncoder<CpackLine>>,
                                .make_decoder = make_decoder<SizedLineDecoder<CpackLine>>,
-                               .keys = kOrderKey};
+                               .keys = kOrderKey,
+                               .eight_bit_only = true};
 
 }  // namespace tilepress

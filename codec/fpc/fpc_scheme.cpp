@@ -145,10 +145,12 @@ struct FpcLine {
 const SchemeInfo kFpcInfo = {.name = "fpc",
                              .label = "FPC",
                              .family = "lines",
+                             .group = SchemeGroup::kLiterature,
                              .summary = "frequent pattern compression of the words of 64-byte lines",
                              .source = "Alameldeen and Wood 2004",
                              .make_encoder = make_encoder<SizedLineEncoder<FpcLine>>,
                              .make_decoder = make_decoder<SizedLineDecoder<FpcLine>>,
-                             .keys = kOrderKey};
+                             .keys = kOrderKey,
+                             .eight_bit_only = true};
 
 }  // namespace tilepress

@@ -156,10 +156,12 @@ const SchemeInfo kFpcdInfo = {
     .name = "fpcd",
     .label = "FPC-D",
     .family = "lines",
+    .group = SchemeGroup::kLiterature,
     .summary = "frequent pattern compression of 64-byte lines, with matches against the two words before",
     .source = "Alameldeen and Agarwal 2018",
     .make_encoder = make_encoder<SizedLineEncoder<FpcdLine>>,
     .make_decoder = make_decoder<SizedLineDecoder<FpcdLine>>,
-    .keys = kOrderKey};
+    .keys = kOrderKey,
+    .eight_bit_only = true};
 
 }  // namespace tilepress

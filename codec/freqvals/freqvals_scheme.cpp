@@ -154,12 +154,14 @@ const SchemeInfo kFreqValsInfo = {
     .name = "freqvals",
     .label = "FreqVals",
     .family = "freqvals",
+    .group = SchemeGroup::kLiterature,
     .summary =
         "Huffman codes over the FVC's colours of the frame before, with an escape for each other pixel",
     .source = "Yang et al. 2000, trained again in each frame",
     .make_encoder = make_encoder<FreqValsEncoder>,
     .make_decoder = make_decoder<FreqValsDecoder>,
     .keys = {kDcpKeys.data(), kFvcKeys},
-    .check = check_dcp_keys};
+    .check = check_dcp_keys,
+    .eight_bit_only = true};
 
 }  // namespace tilepress

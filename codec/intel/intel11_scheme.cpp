@@ -158,9 +158,11 @@ const SchemeInfo kIntel11Info = {
     .name = "intel11",
     .label = "Intel 11",
     .family = "intel",
+    .group = SchemeGroup::kHardware,
     .summary = "Intel's 11th-generation CCS, as reverse engineered: 8x4 pixels in 32, 64, 96 or 128 bytes",
     .source = "Wang et al. 2024 (GPU.zip), as reverse engineered",
     .make_encoder = make_encoder<Intel11Encoder>,
-    .make_decoder = make_decoder<Intel11Decoder>};
+    .make_decoder = make_decoder<Intel11Decoder>,
+    .eight_bit_only = true};
 
 }  // namespace tilepress

@@ -136,9 +136,11 @@ const SchemeInfo kIntel8Info = {
     .name = "intel8",
     .label = "Intel 8",
     .family = "intel",
+    .group = SchemeGroup::kHardware,
     .summary = "Intel's 8th-generation CCS, as reverse engineered: 8x4 pixels in 64 or 128 bytes",
     .source = "Wang et al. 2024 (GPU.zip), as reverse engineered",
     .make_encoder = make_encoder<Intel8Encoder>,
-    .make_decoder = make_decoder<Intel8Decoder>};
+    .make_decoder = make_decoder<Intel8Decoder>,
+    .eight_bit_only = true};
 
 }  // namespace tilepress
