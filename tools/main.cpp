@@ -21,6 +21,7 @@ constexpr Verb kVerbs[] = {
      OnSignal::kEndInOrder},
     {"study", "model every configuration of a study on many inputs, and draw its figures", verb_study,
      OnSignal::kEndInOrder},
+    {"corpus", "list, record, verify and export workloads of free programs", verb_corpus, OnSignal::kVerbsOwn},
     {"record", "record a program into a trace", verb_record, OnSignal::kVerbsOwn},
     {"info", "print what recorded traces hold", verb_info},
     {"bench", "measure the speed of each scheme, memcpy and LZ4", verb_bench},

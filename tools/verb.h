@@ -16,6 +16,7 @@ struct Verb {
 int verb_bench(int argc, char** argv);
 int verb_compare(int argc, char** argv);
 int verb_compose(int argc, char** argv);
+int verb_corpus(int argc, char** argv);
 int verb_cost(int argc, char** argv);
 int verb_doctor(int argc, char** argv);
 int verb_export(int argc, char** argv);

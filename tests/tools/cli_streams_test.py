@@ -21,6 +21,7 @@ RESULTS = {
     "frames": [["-q", "-o", "-", *IMAGES]],
     "replay": None,
     "study": [["--example"]],
+    "corpus": [["list"]],
     "record": None,
     "info": [[TRACE], ["--json", TRACE]],
     "bench": [["-s", "red", "--rounds", "1", "-o", "-", *IMAGES]],

@@ -1,0 +1,161 @@
+"""Recipes: TOML files that say how a workload is recorded, and the check of their fields."""
+import re
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import input_events
+from corpus_messages import Fault
+
+CATEGORIES = ("UI", "2D", "3D")
+# Key: type, required.
+FIELDS = {
+    "name": (str, True), "category": (str, True), "stands_for": (str, True), "licence": (str, True),
+    "packages": (dict, True), "npm": (dict, False), "command": (list, True), "api": (str, True),
+    "environment": (dict, False), "window": (dict, False), "data": (list, False), "clock": (str, False),
+    "input": (list, False), "begins": (float, True), "frames": (int, True), "checks": (dict, True),
+    "remark": (str, False),
+}
+WINDOW_FIELDS = {"size": str, "manager": str}
+CHECK_FIELDS = {"distinct": int, "change": float, "rate_tolerance": float}
+INPUT_FIELDS = {"at": float, "every": float, "times": int, "do": list}
+DATA = ("pictures", "text", "music")
+
+
+@dataclass
+class Recipe:
+    path: Path
+    name: str
+    category: str
+    stands_for: str
+    licence: str
+    packages: dict
+    command: list
+    api: str
+    begins: float
+    frames: int
+    checks: dict
+    npm: dict = field(default_factory=dict)
+    environment: dict = field(default_factory=dict)
+    window: dict = field(default_factory=dict)
+    data: list = field(default_factory=list)
+    clock: str = ""
+    input: list = field(default_factory=list)
+    remark: str = ""
+
+    @property
+    def size(self):
+        return tuple(int(side) for side in self.window.get("size", "720x1280").split("x"))
+
+    @property
+    def manager(self):
+        return self.window.get("manager", "matchbox")
+
+    def events(self):
+        """All timed events, sorted: pairs of seconds after the first frame and an event."""
+        return input_events.expand(self.input)
+
+
+def _fits(value, kind):
+    if kind is float:
+        return isinstance(value, (int, float)) and not isinstance(value, bool)
+    return isinstance(value, kind) and not (kind is int and isinstance(value, bool))
+
+
+def _field_faults(table, fields, where):
+    faults = []
+    for key, value in table.items():
+        if key not in fields:
+            faults.append(f"{where}unknown key '{key}'")
+        elif not _fits(value, fields[key]):
+            faults.append(f"{where}{key} is not of type {fields[key].__name__}")
+    return faults
+
+
+def _value_faults(table):
+    faults = []
+    if not re.fullmatch(r"[a-z0-9][a-z0-9-]*", table["name"]):
+        faults.append("name has other characters than a-z, 0-9 and -")
+    if table["category"] not in CATEGORIES:
+        faults.append(f"category '{table['category']}' is not UI, 2D or 3D")
+    if table["api"] not in ("egl", "glx"):
+        faults.append(f"api '{table['api']}' is not egl or glx")
+    if not 2 <= table["frames"] <= 2000:
+        faults.append("frames is not in 2..2000")
+    if not 0 <= table["begins"] <= 300:
+        faults.append("begins is not in 0..300 seconds")
+    if not table["packages"] or not all(isinstance(version, str) for version in table["packages"].values()):
+        faults.append("packages lists no package with its version")
+    if not table["command"] or not all(isinstance(word, str) for word in table["command"]):
+        faults.append("command is not a list of words")
+    faults += [f"data '{name}' is not one of {', '.join(DATA)}" for name in table.get("data", []) if name not in DATA]
+    faults += [f"environment: {key} is no text" for key, value in table.get("environment", {}).items()
+               if not isinstance(value, str)]
+    for key in ("stands_for", "licence"):
+        if not table[key].strip():
+            faults.append(f"{key} is empty")
+    return faults
+
+
+def _table_faults(table):
+    faults = _field_faults(table.get("window", {}), WINDOW_FIELDS, "window: ")
+    if not re.fullmatch(r"[1-9]\d{1,3}x[1-9]\d{1,3}", str(table.get("window", {}).get("size", "720x1280"))):
+        faults.append("window: size is not WIDTHxHEIGHT")
+    if table.get("window", {}).get("manager", "matchbox") not in ("matchbox", "none"):
+        faults.append("window: manager is not matchbox or none")
+    faults += _field_faults(table["checks"], CHECK_FIELDS, "checks: ")
+    faults += [f"checks: {key} is missing" for key in CHECK_FIELDS if key not in table["checks"]]
+    for number, block in enumerate(table.get("input", []), 1):
+        where = f"input {number}: "
+        if not isinstance(block, dict):
+            faults.append(f"{where}not a table")
+            continue
+        block_faults = _field_faults(block, INPUT_FIELDS, where)
+        block_faults += [f"{where}{key} is missing" for key in ("at", "do") if key not in block]
+        faults += block_faults or [where + fault for fault in input_events.faults(block)]
+    return faults
+
+
+def faults_of(table, stem):
+    """Everything that is wrong with a recipe, a line each."""
+    faults = _field_faults(table, {key: kind for key, (kind, _) in FIELDS.items()}, "")
+    faults += [f"{key} is missing" for key, (_, required) in FIELDS.items() if required and key not in table]
+    if faults:
+        return faults
+    faults = _value_faults(table) + _table_faults(table)
+    if table["name"] != stem:
+        faults.append(f"name '{table['name']}' differs from the file's name")
+    return faults
+
+
+def read_recipe(path):
+    """Raises Fault with a line per error."""
+    try:
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error).splitlines()[0]
+        raise Fault(f"{path}: {reason}") from error
+    faults = faults_of(table, path.stem)
+    if faults:
+        raise Fault("\n".join(f"{path}: {fault}" for fault in faults))
+    return Recipe(path=path, **table)
+
+
+def read_recipes(folder, names, category):
+    """The recipes that are asked for, in the order of their names. Returns recipes and fault lines."""
+    recipes, faults = [], []
+    paths = {path.stem: path for path in sorted(Path(folder).glob("*.toml"))}
+    faults += [f"{name}: no such recipe (see tilepress corpus list)" for name in names if name not in paths]
+    for stem, path in paths.items():
+        if names and stem not in names:
+            continue
+        try:
+            recipe = read_recipe(path)
+        except Fault as fault:
+            faults += str(fault).splitlines()
+            continue
+        if category in ("", recipe.category):
+            recipes.append(recipe)
+    if not recipes and not faults:
+        faults.append(f"{folder}: no recipe" + (f" of category {category}" if category else ""))
+    return recipes, faults

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""Recipes of the corpus: every field of every recipe, and a line for each fault of a bad one.
+
+Usage: corpus_recipes_test.py TILEPRESS CORPUS_FOLDER"""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+COMMAND, CORPUS = sys.argv[1], Path(sys.argv[2])
+sys.path.insert(0, str(CORPUS))
+sys.dont_write_bytecode = True
+
+import input_events  # noqa: E402
+import recipe  # noqa: E402
+import trimming  # noqa: E402
+from corpus_messages import Fault  # noqa: E402
+from recording import Present  # noqa: E402
+
+GOOD = """name = "good"
+category = "UI"
+stands_for = "tests"
+licence = "MIT"
+packages = { nothing = "1" }
+command = ["true"]
+api = "egl"
+begins = 1
+frames = 10
+checks = { distinct = 2, change = 0.1, rate_tolerance = 5.0 }
+[[input]]
+at = 1.0
+every = 2.0
+times = 2
+do = ["0.5 tap 1 2", "0.0 key a b"]
+"""
+
+
+class Recipes(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="tilepress-recipes-")
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def faults(self, text, name="good"):
+        path = self.folder / f"{name}.toml"
+        path.write_text(text, encoding="utf-8")
+        try:
+            recipe.read_recipe(path)
+        except Fault as fault:
+            return [line.removeprefix(f"{path}: ") for line in str(fault).splitlines()]
+        return []
+
+    def test_of_the_project_are_good(self):
+        recipes, faults = recipe.read_recipes(CORPUS / "recipes", [], "")
+        self.assertEqual(faults, [])
+        self.assertGreaterEqual(len(recipes), 4)
+        for one in recipes:
+            with self.subTest(one.name):
+                self.assertGreater(one.checks["distinct"], 1)
+                self.assertTrue(all(seconds >= 0 for seconds, _ in one.events()))
+
+    def test_a_fault_is_a_line(self):
+        self.assertEqual(self.faults(GOOD), [])
+        for old, new, line in (
+                ('category = "UI"', 'category = "4D"', "category '4D' is not UI, 2D or 3D"),
+                ('api = "egl"', 'api = "vulkan"', "api 'vulkan' is not egl or glx"),
+                ("frames = 10", "frames = 1", "frames is not in 2..2000"),
+                ("begins = 1", "begins = true", "begins is not of type float"),
+                ('licence = "MIT"', "", "licence is missing"),
+                ('licence = "MIT"', 'licence = " "', "licence is empty"),
+                ('licence = "MIT"', 'licence = "MIT"\nlicense = "MIT"', "unknown key 'license'"),
+                ('packages = { nothing = "1" }', "packages = {}", "packages lists no package with its version"),
+                ('command = ["true"]', "command = []", "command is not a list of words"),
+                ("distinct = 2, ", "", "checks: distinct is missing"),
+                ("change = 0.1", 'change = "much"', "checks: change is not of type float"),
+                ('api = "egl"', 'api = "egl"\nwindow = { size = "big" }', "window: size is not WIDTHxHEIGHT"),
+                ('api = "egl"', 'api = "egl"\ndata = ["movies"]', "data 'movies' is not one of pictures, text, music"),
+                ("0.5 tap 1 2", "0.5 tap 1", "input 1: '0.5 tap 1': takes 2 numbers"),
+                ("0.5 tap 1 2", "0.5 jump", "input 1: '0.5 jump': the second word is not one of " + ", ".join(input_events.ACTIONS)),
+                ("every = 2.0\n", "", "input 1: times without every")):
+            self.assertEqual(self.faults(GOOD.replace(old, new)), [line])
+        self.assertEqual(self.faults(GOOD, "other"), ["name 'good' differs from the file's name"])
+        self.assertEqual(len(self.faults(GOOD.replace('"UI"', '"4D"').replace('"egl"', '"x"'))), 2)
+
+    def test_that_are_bad_or_unknown_fail_the_command(self):
+        self.faults(GOOD)
+        self.faults("name =", "torn")
+        done = subprocess.run([COMMAND, "corpus", "list", "--recipes", str(self.folder), "good", "torn", "none"],
+                              capture_output=True, text=True, timeout=100, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("good                         UI", done.stdout)
+        lines = done.stderr.splitlines()
+        self.assertEqual(len(lines), 2)
+        self.assertEqual(lines[0], "tilepress: none: no such recipe (see tilepress corpus list)")
+        self.assertTrue(lines[1].startswith(f"tilepress: {self.folder}/torn.toml: "), lines[1])
+
+    def test_options_of_another_command_are_usage(self):
+        done = subprocess.run([COMMAND, "corpus", "list", "--install"], capture_output=True, text=True, timeout=100, check=False)
+        self.assertEqual((done.returncode, done.stderr), (2, "tilepress: --install is an option of corpus record\n"))
+
+
+class Events(unittest.TestCase):
+    def test_repeat_and_are_sorted(self):
+        blocks = [{"at": 1.0, "every": 2.0, "times": 2, "do": ["0.5 move 1 2", "0.0 key a"]}]
+        events = input_events.expand(blocks)
+        self.assertEqual([seconds for seconds, _ in events], [1.0, 1.5, 3.0, 3.5])
+        self.assertEqual(events[1][1], ["mousemove", "1", "2"])
+
+    def test_a_drag_ends_where_it_says(self):
+        _, words = input_events.parse("0 drag 0 0 100 50 0.5")
+        last = len(words) - words[::-1].index("mousemove") - 1
+        self.assertEqual(words[last:last + 3], ["mousemove", "100", "50"])
+
+
+class Regions(unittest.TestCase):
+    def test_are_frames_of_one_surface_after_the_begin(self):
+        swaps = [trimming.Swap(10 * number, "popup" if number % 4 == 0 else "window") for number in range(12)]
+        presents = [Present(float(number), (1, 1), (0, 0.0)) for number in range(12)]
+        self.assertEqual(trimming.choose_region(swaps, presents, 2.5, 4), [3, 5, 6, 7])
+        with self.assertRaisesRegex(Fault, "only 7 of 9 frames"):
+            trimming.choose_region(swaps, presents, 2.5, 9)
+        with self.assertRaisesRegex(Fault, "no frame was presented after 20 s"):
+            trimming.choose_region(swaps, presents, 20, 1)
+
+    def test_calls_are_left_out(self):
+        self.assertEqual(trimming.call_set(9, [0, 3, 4]), "1-2,5-9")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
