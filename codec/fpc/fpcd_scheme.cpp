@@ -39,7 +39,7 @@ namespace {
 
 constexpr uint32_t kPrefixBits = 4;
 
-/// A form: the bytes of `stored` are in the stream, the others come from a word. `mask` has these others.
+/// A form: the stream has the bytes of the mask `stored`, the source has the others.
 struct Form {
   enum Source : uint8_t { kZero, kOnes, kBefore, kLastButOne, kRepeat };
   Source source;
