@@ -54,7 +54,7 @@ class Recipes(unittest.TestCase):
     def test_of_the_project_are_good(self):
         recipes, faults = recipe.read_recipes(CORPUS / "recipes", [], "")
         self.assertEqual(faults, [])
-        self.assertGreaterEqual(len(recipes), 4)
+        self.assertGreaterEqual(len(recipes), 12)
         for one in recipes:
             with self.subTest(one.name):
                 self.assertGreater(one.checks["distinct"], 1)
