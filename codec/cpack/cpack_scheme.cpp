@@ -151,7 +151,7 @@ struct CpackLine {
   /// all words before gives the same codes, without branches.
   static uint32_t bits_by_words_before(const uint32_t* words) {
     std::array<uint32_t, size_t{2} * kWords> line{};  // zeros, which match no high half, then the words
-    std::array<uint32_t, kWords> difference;  // the least from a word before
+    std::array<uint32_t, kWords> difference;          // the least from a word before
     std::copy_n(words, kWords, line.begin() + kWords);
     difference.fill(~0u);
     for (uint32_t back = 1; back < kWords; ++back)
