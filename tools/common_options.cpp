@@ -55,7 +55,7 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   add_run_option(app, options, "output",
                  std::string(find_run_option("output")->help) + " (default: " + options.output + ")");
   add_model_options(app, options);
-  for (const char* name : {"verify", "heatmaps", "dump-frames", "log-level"})
+  for (const char* name : {"toggles", "verify", "heatmaps", "dump-frames", "log-level"})
     add_run_option(app, options, name);
 }
 

@@ -34,6 +34,7 @@ _tilepress() {
       esac
       return ;;
     --heatmaps | --dump-frames) mapfile -t COMPREPLY < <(compgen -W "every:" -- "$current"); return ;;
+    --toggles) mapfile -t COMPREPLY < <(compgen -W "16 32" -- "$current"); return ;;
     --progress) mapfile -t COMPREPLY < <(compgen -W "auto never json" -- "$current"); return ;;
     --via) mapfile -t COMPREPLY < <(compgen -W "auto preload glvnd" -- "$current"); return ;;
     --api) mapfile -t COMPREPLY < <(compgen -W "auto egl glx" -- "$current"); return ;;

@@ -16,6 +16,7 @@
 #include "engine/collectors.h"
 #include "engine/lanes.h"
 #include "engine/pixel_source.h"
+#include "memory/bus_toggles.h"
 #include "tilepress/tiler.h"
 
 namespace tilepress {
@@ -54,6 +55,7 @@ struct SurfaceEngine::State {
   SurfaceView frame{};
   FrameStatistics* out = nullptr;
   std::span<CompressedSurface> surfaces{};
+  std::vector<CompressedSurface> kept_surfaces{};  ///< for the toggles, where the caller keeps none
   uint32_t next_row = 0;  ///< of blocks
 
   void open(PixelFormat format);
@@ -63,6 +65,7 @@ struct SurfaceEngine::State {
   void collect(const BlockContext& block);
   void repeat_block(uint32_t bx, uint32_t count, uint32_t by);
   void settle_repeats(uint32_t place) { lanes.settle(place, runs.take_repeats(place)); }
+  void count_toggles();
   void end_frame();
 };
 
@@ -95,6 +98,10 @@ void SurfaceEngine::State::begin_frame() {
   collectors.begin(ordinal, size_t{frame.width} * frame.height);
   const FrameContext context{source.plane(), ordinal, source.changed_blocks()};
   for (BlockAnalysis* analysis : per_block) analysis->begin_frame(context);
+  if (options.toggle_bits != 0 && surfaces.empty()) {
+    kept_surfaces.resize(specs.size());
+    surfaces = kept_surfaces;
+  }
   lanes.begin_frame(context, surfaces, block_bits, out->schemes);
 }
 
@@ -156,11 +163,25 @@ void SurfaceEngine::State::repeat_block(uint32_t bx, uint32_t count, uint32_t by
   lanes.take_repeats(runs.place(), bx, count, by);
 }
 
+void SurfaceEngine::State::count_toggles() {
+  MemoryBus raw(options.toggle_bits);
+  send_raw(source.plane(), options.tile_side, options.burst_bits, raw);
+  for (size_t i = 0; i < specs.size(); ++i) {
+    SchemeStatistics& scheme = out->schemes[i];
+    if (scheme.skipped) continue;
+    MemoryBus bus(options.toggle_bits);
+    send_surface(surfaces[i], bus);
+    scheme.toggles = {bus.toggles(), bus.toggles_with_inversion(), raw.toggles(),
+                      raw.toggles_with_inversion()};
+  }
+}
+
 void SurfaceEngine::State::end_frame() {
   for (uint32_t place = 0; place < BlockRuns::kPlaces; ++place) settle_repeats(place);
   collectors.end_frame();
   out->metrics = collectors.metrics(source.plane(), source.changed());
   lanes.end_frame();
+  if (options.toggle_bits != 0) count_toggles();
   collectors.build_dictionaries();
   source.end_frame();
   ++ordinal;

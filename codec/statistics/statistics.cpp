@@ -31,6 +31,13 @@ SchemeStatistics& SchemeStatistics::operator+=(const SchemeStatistics& other) {
   for (size_t i = 0; i < own.size(); ++i) own[i] += other.own[i];
   checked_blocks += other.checked_blocks;
   mismatched_blocks += other.mismatched_blocks;
+  if (other.toggles) {
+    if (!toggles) toggles.emplace();
+    toggles->plain += other.toggles->plain;
+    toggles->inverted += other.toggles->inverted;
+    toggles->raw_plain += other.toggles->raw_plain;
+    toggles->raw_inverted += other.toggles->raw_inverted;
+  }
   return *this;
 }
 

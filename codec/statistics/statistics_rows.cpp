@@ -28,6 +28,20 @@ constexpr CsvColumn<SchemeRow> fvc_column(std::string_view name) {
           true};
 }
 
+/// A count of toggles; empty if none were counted.
+template <uint64_t ToggleCounts::*count>
+constexpr CsvColumn<SchemeRow> toggle_column(std::string_view name) {
+  return {name,
+          [](const SchemeRow& row, std::string& out) {
+            if (row.figures.toggles) append_csv(out, (*row.figures.toggles).*count);
+          },
+          [](std::string_view field, SchemeRow& row) {
+            if (!row.figures.toggles) row.figures.toggles.emplace();
+            return read_csv(field, (*row.figures.toggles).*count);
+          },
+          true};
+}
+
 constexpr CsvColumn<Frame> kFormatColumn = {
     "format", [](const Frame& frame, std::string& out) { out += traits(frame.format).name; },
     [](std::string_view field, Frame& frame) {
@@ -81,6 +95,13 @@ constexpr CsvColumn<SchemeRow> kSchemeCheckColumns[] = {
     fvc_column<&FvcFigures::relative_coverage>("fvc_relative_coverage"),
 };
 
+constexpr CsvColumn<SchemeRow> kSchemeToggleColumns[] = {
+    toggle_column<&ToggleCounts::plain>("toggles"),
+    toggle_column<&ToggleCounts::inverted>("toggles_dbi"),
+    toggle_column<&ToggleCounts::raw_plain>("raw_toggles"),
+    toggle_column<&ToggleCounts::raw_inverted>("raw_toggles_dbi"),
+};
+
 #undef TP_MEMBER
 
 }  // namespace
@@ -111,6 +132,10 @@ std::span<const CsvColumn<SchemeRow>> scheme_check_columns() {
   return kSchemeCheckColumns;
 }
 
+std::span<const CsvColumn<SchemeRow>> scheme_toggle_columns() {
+  return kSchemeToggleColumns;
+}
+
 std::string frames_csv_header() {
   return csv_header(kFrameColumns);
 }
@@ -123,6 +148,7 @@ std::string schemes_csv_header() {
   append_csv_names(kSchemeCheckColumns, header += ',');
   for (const SchemeInfo& info : scheme_registry())
     for (const char* column : info.added_columns) (header += ',') += column;
+  append_csv_names(kSchemeToggleColumns, header += ',');
   return header += '\n';
 }
 
@@ -145,6 +171,7 @@ void append_schemes_rows(const FrameStatistics& frame, const std::vector<std::st
     append_csv_fields(kSchemeCheckColumns, row, out += ',');
     for (const SchemeInfo& info : scheme_registry())
       append_own(info, info.columns.size(), info.added_columns.size());
+    append_csv_fields(kSchemeToggleColumns, row, out += ',');
     out += '\n';
   }
 }

@@ -68,7 +68,8 @@ Result<void> read_schemes(std::string_view text, RunRecord& out) {
   for (size_t i = 0; i < out.scheme_names.size(); ++i) scheme_index[out.scheme_names[i]] = i;
 
   CsvRecords records(text);
-  const CsvRowReader<SchemeRow> reader(records, scheme_columns()), checks(records, scheme_check_columns());
+  const CsvRowReader<SchemeRow> reader(records, scheme_columns()), checks(records, scheme_check_columns()),
+      toggles(records, scheme_toggle_columns());
   const OwnColumns own(records);
   out.schemes_bytes = records.offset();
   auto frame = frame_index.end();
@@ -78,6 +79,7 @@ Result<void> read_schemes(std::string_view text, RunRecord& out) {
     if (auto read = reader.read(row); !read) return read;
     if (auto read = own.read(row); !read) return read;
     if (auto read = checks.read(row); !read) return read;
+    if (auto read = toggles.read(row); !read) return read;
     const FrameKey key{row.surface, row.frame};
     if (frame == frame_index.end() || frame->first != key) frame = frame_index.find(key);
     if (frame == frame_index.end()) continue;

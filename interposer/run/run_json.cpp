@@ -114,6 +114,12 @@ Json totals_json(const std::vector<std::string>& names, const std::vector<Scheme
       entry["checked_blocks"] = sum.checked_blocks;
       entry["mismatched_blocks"] = sum.mismatched_blocks;
     }
+    if (sum.toggles) {
+      entry["toggles"] = sum.toggles->plain;
+      entry["toggles_dbi"] = sum.toggles->inverted;
+      entry["raw_toggles"] = sum.toggles->raw_plain;
+      entry["raw_toggles_dbi"] = sum.toggles->raw_inverted;
+    }
     list.push_back(std::move(entry));
   }
   return list;

@@ -163,6 +163,20 @@ std::string print_schemes(const RunOptions& options) {
   return list;
 }
 
+/// A burst is whole beats. Empty: no toggles.
+Result<void> set_toggles(const RunOption& option, RunOptions& options, std::string_view value) {
+  const uint32_t bits = value == "16" ? 16 : value == "32" ? 32 : 0;
+  if (bits == 0 && !value.empty()) return refuse(option, value);
+  if (bits > options.model.burst_bits)
+    return about(shown(value), {ErrorKind::kBadValue, "must not be wider than --burst"});
+  options.model.toggle_bits = bits;
+  return {};
+}
+
+std::string print_toggles(const RunOptions& options) {
+  return options.model.toggle_bits == 0 ? "" : std::to_string(options.model.toggle_bits);
+}
+
 Result<void> set_frames(const RunOption&, RunOptions& options, std::string_view value) {
   auto set = FrameSet::parse(value);
   if (!set) return about(shown(value), set.error());
@@ -202,6 +216,11 @@ constexpr RunOption kOptions[] = {
      .text = kCount<TP_MEMBER(model.burst_bits), 16, kMaxRawBlockBits, power_of_two>,
      .json = {JsonForm::kNumber, "burst"}, .rows = RowsEffect::kAssigned,
      .flags = "--burst", .metavar = "BITS", .help = "DRAM transfer unit, a power of two (default: 128)"},
+    {.name = "toggles", .variable = "TILEPRESS_TOGGLES", .range = "16 or 32",
+     .text = {set_toggles, print_toggles},
+     .json = {JsonForm::kText, "toggles"}, .rows = RowsEffect::kUnlessDefault,
+     .flags = "--toggles", .metavar = "16|32",
+     .help = "Count the bit toggles on a memory bus of 16 or 32 bits, with and without inversion"},
     {.name = "verify", .variable = "TILEPRESS_VERIFY", .range = "1 or 0",
      .text = kChoice<kSwitch, TP_MEMBER(model.verify)>,
      .json = {JsonForm::kBoolean, "verify"}, .rows = RowsEffect::kAssigned,

@@ -27,6 +27,12 @@ struct FvcFigures {
   double relative_coverage = 0;  ///< 0..1: pixels of its colours / pixels of as many most frequent colours
 };
 
+/// Wires of the memory bus that change while the frame is written (spec §17).
+struct ToggleCounts {
+  uint64_t plain = 0, inverted = 0;          ///< of the scheme; inverted: with data bus inversion
+  uint64_t raw_plain = 0, raw_inverted = 0;  ///< of the frame without compression
+};
+
 constexpr size_t kOwnCounts = 4;
 using OwnCounts = std::array<uint64_t, kOwnCounts>;
 
@@ -46,6 +52,7 @@ struct SchemeStatistics {
   bool skipped = false;  ///< the scheme does not support the surface's format; all else is 0, no row
   /// Of one frame in which the scheme's FVC collected and frame metrics were on; sums have none.
   std::optional<FvcFigures> fvc{};
+  std::optional<ToggleCounts> toggles{};  ///< with ModelOptions::toggle_bits
 
   uint64_t moved_bits() const { return bursts * burst_bits + csb_bits + palette_bits; }
   /// raw / (payload + CSB): the paper's first comparison, no bursts.

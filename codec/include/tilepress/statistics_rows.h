@@ -24,9 +24,10 @@ struct SchemeRow {
 /// The columns of frames.csv.
 std::span<const CsvColumn<FrameStatistics>> frame_columns();
 /// The columns of schemes.csv: these, then the SchemeInfo::columns of the registry, then those of the
-/// checks, then the added columns of the registry.
+/// checks, then the added columns of the registry, then those of the toggles.
 std::span<const CsvColumn<SchemeRow>> scheme_columns();
 std::span<const CsvColumn<SchemeRow>> scheme_check_columns();
+std::span<const CsvColumn<SchemeRow>> scheme_toggle_columns();
 
 std::string frames_csv_header();
 std::string schemes_csv_header();
