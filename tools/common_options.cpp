@@ -47,7 +47,8 @@ void add_run_option(CLI::App& app, RunOptions& options, std::string_view name, c
 
 void add_model_options(CLI::App& app, RunOptions& options, const std::string& scheme_help) {
   add_run_option(app, options, "scheme", scheme_help);
-  for (const char* name : {"tile", "burst", "frames", "every"}) add_run_option(app, options, name);
+  for (const char* name : {"tile", "burst", "dram", "frames", "every"}) add_run_option(app, options, name);
+  app.get_option("--dram")->excludes("--burst");
 }
 
 void add_run_options(CLI::App& app, RunOptions& options) {

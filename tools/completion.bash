@@ -34,6 +34,7 @@ _tilepress() {
       esac
       return ;;
     --heatmaps | --dump-frames) mapfile -t COMPREPLY < <(compgen -W "every:" -- "$current"); return ;;
+    --dram) mapfile -t COMPREPLY < <(compgen -W "paper lpddr3 lpddr4 lpddr5" -- "$current"); return ;;
     --toggles) mapfile -t COMPREPLY < <(compgen -W "16 32" -- "$current"); return ;;
     --progress) mapfile -t COMPREPLY < <(compgen -W "auto never json" -- "$current"); return ;;
     --via) mapfile -t COMPREPLY < <(compgen -W "auto preload glvnd" -- "$current"); return ;;

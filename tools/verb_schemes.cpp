@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "command_line.h"
+#include "tilepress/dram_presets.h"
 #include "tilepress/scheme.h"
 #include "verb.h"
 
@@ -67,6 +68,15 @@ void print_text() {
       "sample and period: -s 'vdcp:fvc={16..512}'\n");
 }
 
+void print_presets() {
+  std::printf("\nDRAM presets (--dram):\n");
+  for (const DramPreset& preset : kDramPresets) {
+    std::printf("  %-9s burst %u bits", preset.name.data(), preset.burst_bits);
+    if (preset.width_bits != 0) std::printf(", %u wires, %u MT/s", preset.width_bits, preset.transfers_mt_s);
+    std::printf("; %s\n", preset.source.data());
+  }
+}
+
 }  // namespace
 
 int verb_schemes(int argc, char** argv) {
@@ -74,7 +84,12 @@ int verb_schemes(int argc, char** argv) {
   bool json = false;
   app.add_flag("--json", json, "Print JSON");
   if (auto status = parse_command_line(app, argc, argv)) return *status;
-  json ? print_json() : print_text();
+  if (json) {
+    print_json();
+  } else {
+    print_text();
+    print_presets();
+  }
   return kExitDone;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tilepress/block.h"
+#include "tilepress/dram_presets.h"
 
 namespace tilepress {
 namespace {
@@ -163,6 +164,15 @@ std::string print_schemes(const RunOptions& options) {
   return list;
 }
 
+/// The preset sets the burst.
+Result<void> set_dram(const RunOption& option, RunOptions& options, std::string_view value) {
+  const auto* found = std::ranges::find(kDramPresets, value, &DramPreset::name);
+  if (found == std::end(kDramPresets)) return refuse(option, value);
+  options.dram = value;
+  options.model.burst_bits = found->burst_bits;
+  return {};
+}
+
 /// A burst is whole beats. Empty: no toggles.
 Result<void> set_toggles(const RunOption& option, RunOptions& options, std::string_view value) {
   const uint32_t bits = value == "16" ? 16 : value == "32" ? 32 : 0;
@@ -216,6 +226,11 @@ constexpr RunOption kOptions[] = {
      .text = kCount<TP_MEMBER(model.burst_bits), 16, kMaxRawBlockBits, power_of_two>,
      .json = {JsonForm::kNumber, "burst"}, .rows = RowsEffect::kAssigned,
      .flags = "--burst", .metavar = "BITS", .help = "DRAM transfer unit, a power of two (default: 128)"},
+    {.name = "dram", .variable = "TILEPRESS_DRAM", .range = "paper, lpddr3, lpddr4 or lpddr5",
+     .text = {set_dram, [](const RunOptions& options) { return options.dram; }},
+     .json = {JsonForm::kText, "dram"},
+     .flags = "--dram", .metavar = "NAME",
+     .help = "Burst of a DRAM in place of --burst: paper (128 bits), lpddr3, lpddr4 or lpddr5 (256 bits)"},
     {.name = "toggles", .variable = "TILEPRESS_TOGGLES", .range = "16 or 32",
      .text = {set_toggles, print_toggles},
      .json = {JsonForm::kText, "toggles"}, .rows = RowsEffect::kUnlessDefault,

@@ -127,6 +127,7 @@ const std::map<std::string_view, Samples>& samples() {
       {"scheme", {{"dcp", "vdcp:fvc=128 ras"}, {"", "zip", "dcp zip", "vdcp:fvc=999999"}}},
       {"tile", {{"8", "4096"}, {"0", "12", "4104", "x"}}},
       {"burst", {{"16", "2048"}, {"8", "100", "4096", ""}}},
+      {"dram", {{"paper", "lpddr3", "lpddr4", "lpddr5"}, {"ddr4", ""}}},
       {"toggles", {{"16", "32"}, {"8", "64", "x"}}},
       {"verify", {{"0", "1"}, {"2", ""}}},
       {"frames", {{"0-9,20"}, {"", "9-3", "x"}}},
@@ -163,6 +164,25 @@ TEST(RunOptionTable, EachOptionRefusesOtherValuesAndStaysAsItWas) {
       EXPECT_THAT(set.error().text, ::testing::StartsWith(std::string(option.name) + " "));
       EXPECT_EQ(to_environment(options), to_environment(RunOptions{})) << option.name << " " << value;
     }
+}
+
+TEST(RunOptions, ADramPresetSetsTheBurst) {
+  RunOptions options;
+  ASSERT_TRUE(set_run_option(options, "dram", "lpddr3"));  // x32, burst length 8
+  EXPECT_EQ(options.model.burst_bits, 32u * 8);
+  ASSERT_TRUE(set_run_option(options, "dram", "lpddr4"));  // x16, burst length 16
+  EXPECT_EQ(options.model.burst_bits, 16u * 16);
+  ASSERT_TRUE(set_run_option(options, "dram", "paper"));
+  EXPECT_EQ(options.model.burst_bits, 128u);
+}
+
+TEST(RunOptions, AToggleBusIsNoWiderThanABurst) {
+  RunOptions options;
+  ASSERT_TRUE(set_run_option(options, "burst", "16"));
+  EXPECT_TRUE(set_run_option(options, "toggles", "16"));
+  const auto set = set_run_option(options, "toggles", "32");
+  ASSERT_FALSE(set);
+  EXPECT_EQ(set.error().text, "toggles 32: must not be wider than --burst");
 }
 
 TEST(RunOptionTable, NamesVariablesAndFlagsAreUnique) {

@@ -28,6 +28,7 @@ enum Trigger : uint32_t { kTriggerFinish = 1, kTriggerFlush = 2, kTriggerReadPix
 struct RunOptions {
   std::vector<SchemeSpec> schemes = default_schemes();
   ModelOptions model;              ///< tile, burst, verify
+  std::string dram;                ///< name of the DRAM preset that set the burst; empty = none
   FrameSet frames;                 ///< frame numbers to take, per surface
   uint64_t every = 1;              ///< of those, every n-th frame number (frame % every == 0)
   uint64_t heatmaps_every = 0;     ///< a heat map of every n-th frame number; 0 = none
