@@ -114,12 +114,19 @@ std::string marker_definitions() {
 }
 
 std::string chart_key(const std::vector<KeyEntry>& entries) {
-  std::string out = "<ul class=\"key\">";
-  for (const KeyEntry& entry : entries)
+  const bool grouped = std::any_of(entries.begin(), entries.end(), [&](const KeyEntry& entry) {
+    return entry.group != entries.front().group;
+  });
+  std::string out = "<ul class=\"key\">", group;
+  for (const KeyEntry& entry : entries) {
+    if (grouped && entry.group != group)
+      out += fmt::format("<li class=\"group\">{}:</li>", escape_html(entry.group));
+    group = entry.group;
     out += fmt::format(
         "<li><svg aria-hidden=\"true\" viewBox=\"-7 -7 14 14\"><use href=\"#m{}\" class=\"m "
         "c{}\"/></svg>{}</li>",
         entry.color_index % kShapes, entry.color_index % kColors, escape_html(entry.label));
+  }
   return out + "</ul>\n";
 }
 

@@ -55,6 +55,7 @@ struct ChartRow {
 struct KeyEntry {
   std::string label;
   size_t color_index = 0;
+  std::string group{};  ///< named before its first entry, if the entries have several
 };
 
 enum class RowShape { kDots, kBars, kStack };

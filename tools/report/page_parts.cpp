@@ -7,6 +7,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "scheme_names.h"
+
 namespace tilepress {
 namespace {
 
@@ -55,6 +57,9 @@ void arrange_batch(Batch& batch) {
   if (!batch.schemes.empty()) batch.baseline = batch.schemes.front();
   for (const std::string& scheme : batch.schemes)
     if (scheme == "dcp") batch.baseline = scheme;
+  std::stable_sort(
+      batch.schemes.begin(), batch.schemes.end(),
+      [](const std::string& a, const std::string& b) { return scheme_group(a) < scheme_group(b); });
 
   std::stable_sort(batch.runs.begin(), batch.runs.end(), [&](const RunSummary& a, const RunSummary& b) {
     const auto key = [&](const RunSummary& run) {

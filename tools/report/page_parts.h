@@ -15,7 +15,7 @@ namespace tilepress {
 /// category by the rate of the baseline, smallest first.
 struct Batch {
   std::vector<RunSummary> runs;
-  std::vector<std::string> schemes;     ///< of all runs, in the order they first appear
+  std::vector<std::string> schemes;     ///< of all runs, by group, in the order they first appear
   std::vector<std::string> categories;  ///< in the page's order; "" = none named
   std::string baseline;                 ///< dcp or the first scheme; empty without schemes
   CostConstants energy;

@@ -18,6 +18,12 @@ inline std::string scheme_family(const std::string& spec) {
   return info != nullptr ? info->family : "";
 }
 
+/// Group of "vdcp:fvc=128"; `ours` for a scheme that this build does not have.
+inline SchemeGroup scheme_group(const std::string& spec) {
+  const SchemeInfo* info = scheme_info(spec);
+  return info != nullptr ? info->group : SchemeGroup::kOurs;
+}
+
 /// The paper states an energy only for DCP's structures.
 inline bool has_dcp_structures(const std::string& spec) {
   const SchemeInfo* info = scheme_info(spec);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scheme_names.h"
 #include "sections.h"
 
 namespace tilepress {
@@ -56,7 +57,7 @@ Section rates_section(const Batch& batch, const std::vector<std::string>& scheme
   std::vector<KeyEntry> key;
   for (const std::string& scheme : schemes) {
     table.header.push_back(scheme);
-    key.push_back({scheme, batch.color_of(scheme)});
+    key.push_back({scheme, batch.color_of(scheme), name_of(scheme_group(scheme))});
   }
   ValueRange range;
   std::vector<ChartRow> rows;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/scheme_names.h"
 #include "study/figures/figure_makers.h"
 #include "study/figures/hybrid_blocks.h"
 
@@ -11,13 +12,16 @@ namespace tilepress {
 namespace {
 
 /// The configurations of the figure that the study has results of. An empty list in the figure means all
-/// schemes without keys.
+/// schemes without keys, by group.
 std::vector<std::string> drawn_configurations(const StudyData& data, const FigureSpec& spec) {
   const std::vector<std::string>& known = data.configurations();
   std::vector<std::string> out;
   if (spec.configurations.empty()) {
     for (const std::string& configuration : known)
       if (configuration.find(':') == std::string::npos) out.push_back(configuration);
+    std::stable_sort(out.begin(), out.end(), [](const std::string& a, const std::string& b) {
+      return scheme_group(a) < scheme_group(b);
+    });
     return out;
   }
   for (const std::string& configuration : spec.configurations)
