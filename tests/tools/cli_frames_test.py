@@ -89,6 +89,20 @@ class Rows(CliCase):
         self.assertEqual([(s["checked_blocks"], s["mismatched_blocks"]) for s in run["schemes"]], [(1176 * 4, 0)] * 2)
         self.assertIn("5 frames seen, 5 captured, 333x217 RGBA8", done.stderr.decode())
 
+    def test_toggles_fill_the_last_columns_and_dram_sets_the_burst(self):
+        images = [golden("odd", i) for i in range(2)]
+        done = self.run_command("frames", "-q", "-o", "out", "-s", "red", "--dram", "lpddr4", "--toggles", "16", *images)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        options = read_json(self.path("out/run.json"))["options"]
+        self.assertEqual((options["dram"], options["burst"], options["toggles"]), ("lpddr4", 256, "16"))
+        row = read_rows(self.path("out/schemes.csv"))[1]
+        self.assertEqual(list(row)[-4:], ["toggles", "toggles_dbi", "raw_toggles", "raw_toggles_dbi"])
+        self.assertTrue(0 < int(row["toggles"]) and 0 < int(row["toggles_dbi"]))
+        self.run_command("frames", "-q", "-o", "plain", "-s", "red", *images)
+        self.assertEqual({row["raw_toggles"] for row in read_rows(self.path("plain/schemes.csv"))}, {""})
+        done = self.run_command("frames", "-o", "both", "--dram", "lpddr4", "--burst", "256", *images)
+        self.assertEqual(done.returncode, USAGE)
+
     def test_standard_output_takes_the_rows_and_no_folder_is_made(self):
         done = self.run_command("frames", "-q", "-o", "-", "-s", "red", golden("odd", 0), golden("odd", 1))
         self.assertEqual((done.returncode, done.stderr), (0, b""))
