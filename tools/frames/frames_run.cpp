@@ -64,7 +64,7 @@ Result<void> FramesRun::open(const RunInfo& info) {
 
 Result<bool> FramesRun::process() {
   for (const std::string& line : unsupported_schemes(options_.run.schemes, images_.format()))
-    show("tilepress: " + line + "\n");
+    say(MessageLevel::kWarning, line);
   return images_.streamed() ? process_stream() : process_batch();
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "study/color_shares.h"
+#include "tilepress/scheme.h"
 #include "tilepress/statistics_rows.h"
 #include "tilepress/surface_engine.h"
 
@@ -23,7 +24,8 @@ void append_rows(const FrameStatistics& frame, const std::vector<SchemeSpec>& sp
 }  // namespace
 
 Result<std::optional<ModelRows>> model_frames(FrameFeed& feed, const RunOptions& options, bool with_colors,
-                                              const std::atomic<int>& stop, std::atomic<uint64_t>& frames_done) {
+                                              const std::atomic<int>& stop,
+                                              std::atomic<uint64_t>& frames_done) {
   ModelRows rows;
   rows.schemes.assign(options.schemes.size(), schemes_csv_header());
   rows.frames = frames_csv_header();
@@ -39,12 +41,15 @@ Result<std::optional<ModelRows>> model_frames(FrameFeed& feed, const RunOptions&
       return std::optional(std::move(rows));
     }
     if (!options.takes(frame.frame)) continue;
-    SurfaceEngine& engine = engines.try_emplace(frame.surface, options.schemes, options.model).first->second;
+    const auto [engine, is_new] = engines.try_emplace(frame.surface, options.schemes, options.model);
+    if (is_new)
+      for (const std::string& line : unsupported_schemes(options.schemes, frame.view.format))
+        rows.skipped.push_back("surface " + std::to_string(frame.surface) + ": " + line);
     statistics.frame = frame.frame;
     statistics.surface = frame.surface;
     statistics.time_ns = frame.time_ns;
     statistics.readback_ns = frame.readback_ns;
-    engine.process(frame.view, statistics);
+    engine->second.process(frame.view, statistics);
     append_rows(statistics, options.schemes, rows);
     if (with_colors && !statistics.warmup) colors.add(frame.view);
     ++rows.frame_count;

@@ -16,11 +16,14 @@ struct ModelRows {
   std::string frames;                ///< frames.csv
   std::string colors;                ///< ColorShares::text()
   uint64_t frame_count = 0;
+  std::vector<std::string>
+      skipped;  ///< a line per scheme and surface whose format the scheme does not support
 };
 
 /// Models the frames that `options` select with `options.schemes`. `with_colors` fills `colors`. Adds to
 /// `frames_done` after each frame. Returns nothing once `stop` is not 0.
 Result<std::optional<ModelRows>> model_frames(FrameFeed& feed, const RunOptions& options, bool with_colors,
-                                              const std::atomic<int>& stop, std::atomic<uint64_t>& frames_done);
+                                              const std::atomic<int>& stop,
+                                              std::atomic<uint64_t>& frames_done);
 
 }  // namespace tilepress

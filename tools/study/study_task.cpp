@@ -4,10 +4,11 @@
 #include <chrono>
 #include <filesystem>
 
+#include "streams/messages.h"
+#include "study/cache/host_name.h"
 #include "study/model_frames.h"
 #include "study/result_store.h"
 #include "study/task_state.h"
-#include "study/cache/host_name.h"
 #include "study/text_file.h"
 
 namespace tilepress {
@@ -56,6 +57,7 @@ Result<std::optional<uint64_t>> model_and_store(const TaskFiles& files, const st
   if (!*rows) return std::optional<uint64_t>();
   if ((*rows)->frame_count == 0)
     return Error{ErrorKind::kFile, files.workload + ": --frames and --every select none of its frames"};
+  for (const std::string& line : (*rows)->skipped) say(MessageLevel::kWarning, files.workload + ": " + line);
   const auto stored = store_rows(files, specs, **rows, with_metrics);
   if (!stored) return stored.error();
   return std::optional((*rows)->frame_count);
@@ -68,7 +70,8 @@ std::vector<SchemeSpec> missing_configurations(const StudyPlan& plan, const Stud
   const TaskFiles files = files_of(plan, task, record, options);
   std::vector<SchemeSpec> missing;
   for (const size_t i : task.configurations)
-    if (!is_there(files.result(plan.study.configurations[i]))) missing.push_back(plan.study.configurations[i]);
+    if (!is_there(files.result(plan.study.configurations[i])))
+      missing.push_back(plan.study.configurations[i]);
   return missing;
 }
 
@@ -92,7 +95,8 @@ Result<TaskOutcome> run_task(const StudyPlan& plan, const StudyTask& task, const
   if (missing.empty() && !with_metrics) return outcome;
 
   const auto begin = std::chrono::steady_clock::now();
-  const auto modelled = model_and_store(files, missing, with_metrics, prepared.open, options, stop, frames_done);
+  const auto modelled =
+      model_and_store(files, missing, with_metrics, prepared.open, options, stop, frames_done);
   if (modelled && !*modelled) return TaskOutcome{TaskEnd::kInterrupted};
   TaskRecord record{modelled ? "" : modelled.error().text, host_name(), TILEPRESS_VERSION, utc_time(), 0, 0};
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
