@@ -5,6 +5,7 @@
 
 #include "block_harness.h"
 #include "pixels/low_first_bits.h"
+#include "tilepress/surface_engine.h"
 
 using namespace harness;
 
@@ -335,4 +336,21 @@ TEST(AmdDcc, RefusesWhatNoEncoderWrites) {
   Encoded unknown = bits;
   unknown.csb[0] = 0x29;
   EXPECT_FALSE(decodes(amd, unknown));
+}
+
+TEST(GpuFormats, LeaveSurfacesOutWhoseChannelsDoNotHaveEightBits) {
+  const reference::Picture picture{8, 8, std::vector<uint32_t>(64, 0x1234)};
+  for (const PixelFormat format :
+       {PixelFormat::kRgba8, PixelFormat::kRgbx8, PixelFormat::kRgb565, PixelFormat::kRgb10a2}) {
+    const bool supported = format == PixelFormat::kRgba8 || format == PixelFormat::kRgbx8;
+    SurfaceEngine engine({parsed("intel8"), parsed("intel11"), parsed("amddcc"), parsed("red")}, {});
+    FrameStatistics statistics;
+    engine.process(patterns::in_memory(picture, format).view(), statistics);
+    for (size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(statistics.schemes[i].skipped, !supported);
+      EXPECT_EQ(statistics.schemes[i].raw_bits, supported ? 2048u : 0u);
+    }
+    EXPECT_FALSE(statistics.schemes[3].skipped);
+    EXPECT_GT(statistics.schemes[3].payload_bits, 0u);
+  }
 }
