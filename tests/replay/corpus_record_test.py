@@ -115,6 +115,7 @@ class Core(unittest.TestCase):
             trace = (folder / f"{info['name']}.trace").read_bytes()
             self.assertEqual(hashlib.sha256(trace).hexdigest(), info["trace_sha256"], info["name"])
             self.assertTrue((folder / "copyright").is_file())
+            self.assertIn(info["trace_sha256"], (CORE / "manifest.toml").read_text(encoding="utf-8"), info["name"])
 
     def test_frames_and_rates_are_the_recorded_ones(self):
         """Mesa draws differently on other processors: differing frames are counted, other rates of equal frames fail."""
