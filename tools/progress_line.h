@@ -20,6 +20,8 @@ class ProgressLine {
  public:
   ProgressLine(ProgressMode mode, std::string what);
   ~ProgressLine();  ///< takes the line away
+  /// False if show() would print nothing.
+  bool is_shown() const { return mode_ != ProgressMode::kNever; }
   /// `total`: nothing when it is not known.
   void show(uint64_t done, std::optional<uint64_t> total);
 

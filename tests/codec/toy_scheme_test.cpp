@@ -68,8 +68,8 @@ TEST(ToyScheme, HasAColumnThatIsZeroForOtherSchemes) {
   std::string rows;
   append_schemes_rows(frame, {"hdcp", "toy:rows=8"}, rows);
   EXPECT_EQ(rows,
-            "0,0,hdcp,0,0,0,0,0,0,0,0,0,0,3,4,0,0,0,0,,,2\n"
-            "0,0,toy:rows=8,0,0,0,0,0,0,0,0,0,0,0,0,15,0,0,0,,,0\n");
+            "0,0,hdcp,0,0,0,0,0,0,0,0,0,0,3,4,0,0,0,0,,,2,,,,\n"
+            "0,0,toy:rows=8,0,0,0,0,0,0,0,0,0,0,0,0,15,0,0,0,,,0,,,,\n");
 }
 
 TEST(ToyScheme, IsRefusedASecondTimeAndUnderANameThatNoOptionCanHold) {

@@ -11,6 +11,7 @@
 #include "command_line.h"
 #include "counted.h"
 #include "streams/ending_signals.h"
+#include "study/cache/cache_key.h"
 #include "study/figures/study_outputs.h"
 #include "study/slurm.h"
 #include "study/study_run.h"
@@ -47,7 +48,7 @@ std::string summary_line(const StudyPlan& plan, const StudyCommand& command, con
   return out;
 }
 
-bool needs_shim(const StudyPlan& plan) {
+bool renders_traces(const StudyPlan& plan) {
   for (const Workload& workload : plan.workloads)
     if (workload.kind == WorkloadKind::kTrace) return true;
   return false;
@@ -108,16 +109,19 @@ int execute_study(const StudyPlan& plan, StudyCommand& command) {
   if (command.launcher == StudyLauncher::kSlurm) return submit_study(plan, command);
   const auto begin = std::chrono::steady_clock::now();
   TemporaryFolder links;
-  if (needs_shim(plan)) {
+  if (renders_traces(plan)) {
     const auto shim = preloadable_shim(false, links);
     if (!shim) return fail(kExitFailed, shim.error());
     command.study.render.shim = *shim;
+    probe_renderer();
   }
   StudyCounts counts;
   {
     ProgressLine progress(command.quiet ? ProgressMode::kNever : command.progress, "study");
-    counts = run_study(plan, command.study, noted_signal(),
-                       [&](uint64_t done, std::optional<uint64_t> total) { progress.show(done, total); });
+    const StudyProgress shown = [&](uint64_t done, std::optional<uint64_t> total) {
+      progress.show(done, total);
+    };
+    counts = run_study(plan, command.study, noted_signal(), progress.is_shown() ? shown : nullptr);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (counts.interrupted)

@@ -34,11 +34,13 @@ class StudyWorkers {
     running_ = std::max(1u, options_.jobs);
     std::vector<std::jthread> threads;
     for (uint32_t i = 0; i < std::max(1u, options_.jobs); ++i) threads.emplace_back([this] { work(); });
-    const std::optional<uint64_t> total = all_frames();
-    while (running_ > 0) {
-      std::this_thread::sleep_for(kTickPeriod);
-      const uint64_t done = frames_done();
-      progress(done, total && *total >= done ? total : std::nullopt);
+    if (progress) {
+      const std::optional<uint64_t> total = all_frames();
+      while (running_ > 0) {
+        std::this_thread::sleep_for(kTickPeriod);
+        const uint64_t done = frames_done();
+        progress(done, total && *total >= done ? total : std::nullopt);
+      }
     }
     threads.clear();
     counts_.interrupted = stop_ != 0;

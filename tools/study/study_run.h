@@ -19,7 +19,8 @@ struct StudyCounts {
   bool interrupted = false;
 };
 
-/// Frames modelled or rendered so far, and all frames once they are known.
+/// Frames modelled or rendered so far, and all frames unless they are not known. May be null, which saves the
+/// counting.
 using StudyProgress = std::function<void(uint64_t, std::optional<uint64_t>)>;
 
 /// Runs the tasks of the shard. Each of `options.jobs` threads renders or models, whatever the queue has next. Says one line for each workload or task that fails; the others go

@@ -32,6 +32,10 @@ std::string pixel_options(const RenderOptions& options) {
 
 }  // namespace
 
+void probe_renderer() {
+  renderer_here();
+}
+
 Result<CacheKey> cache_key(const ReplayInput& input, const RenderOptions& options) {
   const auto digest = sha256_of_file(input.path);
   if (!digest) return about(input.path, digest.error());

@@ -17,7 +17,11 @@ struct CacheKey {
   std::string frame_set;      ///< input.frames; empty = all
 };
 
-/// Probes the renderer once per process, in a child process. Error, the trace first: the trace cannot be
+/// Probes the renderer of this host, once per process. The child process of a probe loads drivers. It may wait
+/// for ever for a lock that another thread held at the fork, so call this before threads are started.
+void probe_renderer();
+
+/// Probes the renderer unless probe_renderer() did. Error, the trace first: the trace cannot be
 /// read, has another SHA-256 than the input names, or there is no renderer.
 Result<CacheKey> cache_key(const ReplayInput& input, const RenderOptions& options);
 
