@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
+#include <filesystem>
+#include <functional>
 #include <mutex>
 #include <thread>
 
@@ -57,10 +59,18 @@ class StudyWorkers {
     return tasks;
   }
 
+  /// The largest traces first, so that no long task is left for the end.
   std::vector<size_t> workloads_of_shard() const {
     std::vector<size_t> workloads;
     for (size_t i = 0; i < plan_.workloads.size(); ++i)
       if (!tasks_of(i).empty()) workloads.push_back(i);
+    const auto bytes = [this](size_t workload) -> uintmax_t {
+      std::error_code code;
+      const Workload& each = plan_.workloads[workload];
+      const uintmax_t size = each.kind == WorkloadKind::kTrace ? std::filesystem::file_size(each.paths[0], code) : 0;
+      return code ? 0 : size;
+    };
+    std::ranges::stable_sort(workloads, std::greater<>(), bytes);
     return workloads;
   }
 

@@ -18,7 +18,7 @@ struct StudyWork {
   const PreparedWorkload* prepared = nullptr;  ///< of the task
 };
 
-/// Workloads are prepared in order, and a few tasks ahead of the workers: the frames of many workloads may not
+/// Workloads are prepared in the order given, and a few tasks ahead of the workers: the frames of many workloads may not
 /// fit into the cache at a time. Of the tasks that wait, the one with the most pixels comes first, so that no
 /// long task is left for the end. Thread-safe.
 class WorkQueue {
