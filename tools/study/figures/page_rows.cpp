@@ -152,4 +152,9 @@ PageChart coverage_scatter(const StudyData& data, const Figure& figure) {
           .remark = "One mark per workload. The CSV file has the frames too."};
 }
 
+size_t category_color(const StudyData& data, const std::string& category) {
+  const auto& known = data.categories();
+  return static_cast<size_t>(std::find(known.begin(), known.end(), category) - known.begin());
+}
+
 }  // namespace tilepress

@@ -147,11 +147,6 @@ PageChart page_chart(const StudyData& data, const Figure& figure) {
   return mostly_words(figure) ? axis_bars(data, figure) : axis_lines(data, figure);
 }
 
-size_t category_color(const StudyData& data, const std::string& category) {
-  const auto& known = data.categories();
-  return static_cast<size_t>(std::find(known.begin(), known.end(), category) - known.begin());
-}
-
 std::string study_page(const StudyData& data, const std::vector<Claim>& claims,
                        const std::vector<Figure>& figures, const std::vector<DocumentTable>& tables,
                        const std::vector<std::string>& drawn) {
