@@ -192,6 +192,11 @@ void apply_categories(const std::vector<std::string>& rules, StudyFile& study, s
     if (std::ranges::count(study.categories, workload.category, &StudyCategory::name) == 0)
       study.categories.push_back({workload.category, workload.category == "other" ? "Other" : workload.category, {}});
   }
+  for (const std::string& rule : rules)
+    if (std::ranges::all_of(workloads, [&](const Workload& workload) {
+          return category_by_rules({rule}, workload.name, "").empty();
+        }))
+      study.remarks.push_back("--category " + rule + " matches no workload");
   for (const StudyCategory& category : study.categories)
     if (std::ranges::count(workloads, category.name, &Workload::category) == 0)
       study.remarks.push_back("category '" + category.name + "' has no workload");

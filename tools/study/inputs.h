@@ -38,7 +38,7 @@ FoundWorkloads find_workloads(const std::vector<std::string>& inputs);
 
 /// Puts each workload into a category: that of the first rule "PATTERN=NAME" that matches its name, else its
 /// own, else that of the first category of the study that names it, else "other". Adds categories that the
-/// study does not list to it, and a remark for each listed category without a workload.
+/// study does not list to it, and a remark for each listed category and each rule without a workload.
 void apply_categories(const std::vector<std::string>& rules, StudyFile& study,
                       std::vector<Workload>& workloads);
 

@@ -242,9 +242,10 @@ class Inputs(StudyCase):
         self.assertRegex(self.stderr, r"tilepress: .*/runs/desk-1: was made with burst\w* 128, not 256 as the study")
 
     def test_get_categories_from_rules_before_patterns(self):
-        self.study("-o", "out", "--category", "*k*=3D", "desktop", "map")
+        self.study("-o", "out", "--category", "*k*=3D", "--category", "*x*=2D", "desktop", "map")
         self.assertEqual([row["category"] for row in self.rows("workloads.csv")], ["3D", "other"])
         self.assertIn("tilepress: category 'UI' has no workload", self.lines())
+        self.assertIn("tilepress: --category *x*=2D matches no workload", self.lines())
 
 
 class StudyFiles(StudyCase):
