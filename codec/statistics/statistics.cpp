@@ -24,7 +24,7 @@ SchemeStatistics& SchemeStatistics::operator+=(const SchemeStatistics& other) {
   raw_bits += other.raw_bits;
   payload_bits += other.payload_bits;
   bursts += other.bursts;
-  burst_bits = other.burst_bits;
+  if (other.blocks != 0) burst_bits = other.burst_bits;  // a skipped frame has none
   csb_bits += other.csb_bits;
   palette_bits += other.palette_bits;
   extra_bits += other.extra_bits;
