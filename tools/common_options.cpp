@@ -45,10 +45,14 @@ void add_run_option(CLI::App& app, RunOptions& options, std::string_view name, c
     app.add_option_function<std::string>(flags, set, text)->type_name(std::string(option.metavar));
 }
 
-void add_model_options(CLI::App& app, RunOptions& options, const std::string& scheme_help) {
-  add_run_option(app, options, "scheme", scheme_help);
+void add_frame_options(CLI::App& app, RunOptions& options) {
   for (const char* name : {"tile", "burst", "dram", "frames", "every"}) add_run_option(app, options, name);
   app.get_option("--dram")->excludes("--burst");
+}
+
+void add_model_options(CLI::App& app, RunOptions& options, const std::string& scheme_help) {
+  add_run_option(app, options, "scheme", scheme_help);
+  add_frame_options(app, options);
 }
 
 void add_run_options(CLI::App& app, RunOptions& options) {

@@ -18,7 +18,10 @@ namespace tilepress {
 /// Adds one option of the table of run options. Precondition: the table has the option, with flags.
 void add_run_option(CLI::App& app, RunOptions& options, std::string_view name, const std::string& help = "");
 
-/// Adds -s/--scheme, --tile, --burst, --frames and --every.
+/// Adds --tile, --burst or --dram, --frames and --every.
+void add_frame_options(CLI::App& app, RunOptions& options);
+
+/// Adds -s/--scheme and the options of add_frame_options().
 void add_model_options(CLI::App& app, RunOptions& options, const std::string& scheme_help = "");
 
 /// Adds -o/--output, the model options, --verify, --heatmaps, --dump-frames and --log-level.

@@ -23,8 +23,9 @@ struct StudyCounts {
 /// counting.
 using StudyProgress = std::function<void(uint64_t, std::optional<uint64_t>)>;
 
-/// Runs the tasks of the shard. Each of `options.jobs` threads renders or models, whatever the queue has next. Says one line for each workload or task that fails; the others go
-/// on. Calls `progress` about ten times a second from this thread.
+/// Runs the tasks of the shard. Each of `options.jobs` threads renders or models, whatever the queue has next.
+/// Says one line for each workload or task that fails; the others go on. Calls `progress` about ten times a
+/// second from this thread.
 StudyCounts run_study(const StudyPlan& plan, const StudyOptions& options, const std::atomic<int>& stop,
                       const StudyProgress& progress);
 

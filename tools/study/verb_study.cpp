@@ -54,8 +54,7 @@ void add_study_options(CLI::App& app, VerbOptions& options) {
   app.add_flag("-n,--plan", options.plan_only, "Print tasks, frames and the estimated time, and run nothing");
   app.add_flag("--example", options.example, "Print a commented study file");
   add_category_option(app, study.categories);
-  for (const char* name : {"tile", "burst", "dram", "frames", "every"}) add_run_option(app, study.run, name);
-  app.get_option("--dram")->excludes("--burst");
+  add_frame_options(app, study.run);
   app.add_option("--cache", study.render.cache_folder,
                  "Folder of rendered traces (default: $XDG_CACHE_HOME/tilepress/frames)")
       ->type_name("DIR");
