@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The program behind `tilepress corpus`: lists, records, verifies and exports workloads.
+"""The program behind `tilepress corpus`: lists, records, verifies, compares and exports workloads.
 
 `tilepress corpus` passes absolute paths, and the path of itself as TILEPRESS in the environment."""
 import argparse
@@ -10,6 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import comparison
 import corpus_messages
 import publish
 import recipe as recipes
@@ -63,6 +64,13 @@ def record_recipes(options, chosen):
     return good == len(chosen)
 
 
+def compare_recordings(options):
+    table, equal = comparison.compare([Path(name) for name in options.names[:2]], options.names[2:], options.category,
+                                      options.recipes, options.replay)
+    options.listing.write_text(table, encoding="utf-8")
+    return equal
+
+
 def recorded_folders(options):
     """Folders with a recorded workload. Complains about names without one. Returns folders and whether all are there."""
     names = options.names or sorted(path.parent.name for path in options.output.glob("*/info.json"))
@@ -85,7 +93,7 @@ def recorded_folders(options):
 
 def parse():
     parser = argparse.ArgumentParser()
-    parser.add_argument("command", choices=("list", "record", "verify", "export"))
+    parser.add_argument("command", choices=("list", "record", "verify", "compare", "export"))
     parser.add_argument("names", nargs="*")
     parser.add_argument("--category", default="")
     parser.add_argument("--recipes", type=Path, required=True)
@@ -95,6 +103,7 @@ def parse():
     parser.add_argument("--keep", type=Path)
     parser.add_argument("--frames", type=int, default=0)
     parser.add_argument("--install", action="store_true")
+    parser.add_argument("--replay", action="store_true")
     parser.add_argument("--quiet", action="store_true")
     return parser.parse_args()
 
@@ -110,6 +119,8 @@ def main():
             complain(fault)
         act = list_recipes if options.command == "list" else record_recipes
         return bool(chosen) and act(options, chosen) and not faults
+    if options.command == "compare":
+        return compare_recordings(options)
     folders, complete = recorded_folders(options)
     if not folders:
         return False

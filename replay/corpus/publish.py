@@ -35,9 +35,9 @@ def _sha256(path):
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _verify(folder):
-    """Returns how many frames differ, of how many, and the renderer of the recording. Raises Fault, also if equal frames
-    have other rates."""
+def replay_differences(folder):
+    """Replays a workload. Returns how many frames differ, of how many, and the renderer of the recording. Raises Fault, also
+    if equal frames have other rates."""
     info = json.loads((folder / "info.json").read_text(encoding="utf-8"))
     trace = folder / f"{folder.name}.trace"
     if _sha256(trace) != info["trace_sha256"]:
@@ -63,7 +63,7 @@ def verify(folders):
     good = 0
     for folder in folders:
         try:
-            differ, count, renderer = _verify(folder)
+            differ, count, renderer = replay_differences(folder)
         except (Fault, OSError, KeyError, ValueError) as fault:
             complain(f"{folder.name}: {fault}")
             continue

@@ -2,6 +2,7 @@
 """Recipes of the corpus: every field of every recipe, and a line for each fault of a bad one.
 
 Usage: corpus_recipes_test.py TILEPRESS CORPUS_FOLDER"""
+import json
 import subprocess
 import sys
 import tempfile
@@ -98,6 +99,52 @@ class Recipes(unittest.TestCase):
     def test_options_of_another_command_are_usage(self):
         done = subprocess.run([COMMAND, "corpus", "list", "--install"], capture_output=True, text=True, timeout=100, check=False)
         self.assertEqual((done.returncode, done.stderr), (2, "tilepress: --install is an option of corpus record\n"))
+
+
+class Comparisons(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="tilepress-compare-")
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        (self.folder / "recipes").mkdir()
+        (self.folder / "recipes/good.toml").write_text(GOOD, encoding="utf-8")
+
+    def record(self, root, frames=10, width=720, vdcp=4.0):
+        (self.folder / root / "good").mkdir(parents=True, exist_ok=True)
+        info = {"name": "good", "category": "UI", "frames": frames, "width": width, "height": 1280, "change_percent": 1.5,
+                "rates": {"vdcp": {"rate": vdcp}, "ras": {"rate": 2.0}}}
+        (self.folder / root / "good/info.json").write_text(json.dumps(info), encoding="utf-8")
+
+    def compare(self, *words):
+        return subprocess.run([COMMAND, "corpus", "compare", "--recipes", "recipes", *words], cwd=self.folder,
+                              capture_output=True, text=True, timeout=100, check=False)
+
+    def test_allow_rates_within_the_tolerance(self):
+        self.record("one")
+        self.record("two", vdcp=4.18)
+        done = self.compare("one", "two")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertRegex(done.stdout, r"good +UI +10 +720x1280 +4.00 4.18 .* 4.50 % +vdcp +5 %")
+        self.assertIn("\n1 of 1 workload alike\n", done.stdout)
+
+    def test_name_each_difference(self):
+        self.record("one")
+        self.record("two", frames=9, width=600, vdcp=4.3)
+        done = self.compare("one", "two", "good")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr.splitlines(), [
+            "tilepress: good: frames 10 and 9", "tilepress: good: size 720x1280 and 600x1280",
+            "tilepress: good: the rate of vdcp differs by 7.5 % (4.00 and 4.30), the recipe allows 5 %"])
+
+    def test_name_what_is_missing(self):
+        self.record("one")
+        for words, code, line in ((("one",), 2, "corpus compare takes two folders of recorded workloads"),
+                                  (("one", "two"), 1, "good: two/good: No such file or directory"),
+                                  (("none", "two"), 1, "none: no recorded workload"),
+                                  (("one", "two", "bad"), 1, "bad: no such recipe (see tilepress corpus list)")):
+            done = self.compare(*words)
+            self.assertEqual(done.returncode, code)
+            self.assertTrue(done.stderr.startswith("tilepress: " + line), done.stderr)
 
 
 class Events(unittest.TestCase):

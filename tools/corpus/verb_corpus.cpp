@@ -21,12 +21,14 @@ constexpr const char* kExamples =
     "  list      print the workloads that can be recorded\n"
     "  record    record workloads: trace, info, thumbnail, licences, log and checksums\n"
     "  verify    replay recorded workloads and compare the digests of their frames\n"
+    "  compare   compare two recordings of workloads: frames, size, and rates within the recipe's tolerance\n"
     "  export    write recorded workloads with manifest, licences and checksums into a tar file\n"
     "\n"
     "Examples:\n"
     "  tilepress corpus list --category 3D\n"
     "  tilepress corpus record --install -o corpus gnome-calculator kubrick\n"
     "  tilepress corpus verify -o corpus\n"
+    "  tilepress corpus compare --replay corpus again\n"
     "  tilepress corpus export -o corpus --archive corpus.tar\n"
     "  tilepress study paper -o out corpus/*/*.trace\n"
     "\n"
@@ -38,7 +40,7 @@ struct CorpusOptions {
   std::string command, category, output = "tilepress-corpus", archive, recipes, keep;
   std::vector<std::string> names;
   unsigned frames = 0;
-  bool install = false, quiet = false;
+  bool install = false, replay = false, quiet = false;
 };
 
 /// Options that only one command takes.
@@ -47,15 +49,16 @@ struct OwnOption {
   const char* command;
 };
 constexpr OwnOption kOwnOptions[] = {
-    {"--archive", "export"}, {"--frames", "record"}, {"--install", "record"}, {"--keep-failed", "record"}};
+    {"--archive", "export"}, {"--frames", "record"}, {"--install", "record"},
+    {"--keep-failed", "record"}, {"--replay", "compare"}};
 
 std::optional<int> parse_options(int argc, char** argv, CorpusOptions& options) {
-  CLI::App app("Lists, records, verifies and exports workloads of free programs.");
+  CLI::App app("Lists, records, verifies, compares and exports workloads of free programs.");
   app.footer(kExamples);
-  app.add_option("COMMAND", options.command, "list, record, verify or export")
+  app.add_option("COMMAND", options.command, "list, record, verify, compare or export")
       ->required()
-      ->check(CLI::IsMember({"list", "record", "verify", "export"}));
-  app.add_option("NAME", options.names, "Workloads (default: all)")->type_name("...");
+      ->check(CLI::IsMember({"list", "record", "verify", "compare", "export"}));
+  app.add_option("NAME", options.names, "Workloads (default: all). For compare: two folders, then workloads")->type_name("...");
   app.add_option("-o,--output", options.output, "Folder of the recorded workloads (default: " + options.output + ")")
       ->type_name("DIR");
   app.add_option("--category", options.category, "Only the workloads of this category: UI, 2D or 3D")
@@ -69,11 +72,14 @@ std::optional<int> parse_options(int argc, char** argv, CorpusOptions& options) 
   app.add_flag("--install", options.install, "For record: install the Debian packages of the workloads first");
   app.add_option("--keep-failed", options.keep, "For record: keep the files of failed workloads here")
       ->type_name("DIR");
+  app.add_flag("--replay", options.replay, "For compare: replay both recordings and compare their frames too");
   app.add_flag("-q,--quiet", options.quiet, "Print no progress");
   if (const auto status = parse_command_line(app, argc, argv)) return status;
   for (const OwnOption& own : kOwnOptions)
     if (app.count(own.option) > 0 && options.command != own.command)
       return fail(kExitUsage, std::string(own.option) + " is an option of corpus " + own.command);
+  if (options.command == "compare" && options.names.size() < 2)
+    return fail(kExitUsage, "corpus compare takes two folders of recorded workloads (see tilepress corpus --help)");
   return std::nullopt;
 }
 
@@ -90,6 +96,7 @@ std::vector<std::string> program_line(const CorpusOptions& options, const std::s
   if (!options.keep.empty()) words.push_back("--keep=" + absolute(options.keep));
   if (options.frames > 0) words.push_back("--frames=" + std::to_string(options.frames));
   if (options.install) words.push_back("--install");
+  if (options.replay) words.push_back("--replay");
   if (options.quiet) words.push_back("--quiet");
   words.insert(words.end(), {"--", options.command});
   words.insert(words.end(), options.names.begin(), options.names.end());
