@@ -19,7 +19,7 @@ FIELDS = {
 WINDOW_FIELDS = {"size": str, "manager": str}
 CHECK_FIELDS = {"distinct": int, "change": float, "rate_tolerance": float}
 INPUT_FIELDS = {"at": float, "every": float, "times": int, "do": list}
-DATA = ("pictures", "text", "music")
+DATA = ("pictures", "text", "music", "video")
 
 
 @dataclass

@@ -76,7 +76,7 @@ class Recipes(unittest.TestCase):
                 ("distinct = 2, ", "", "checks: distinct is missing"),
                 ("change = 0.1", 'change = "much"', "checks: change is not of type float"),
                 ('api = "egl"', 'api = "egl"\nwindow = { size = "big" }', "window: size is not WIDTHxHEIGHT"),
-                ('api = "egl"', 'api = "egl"\ndata = ["movies"]', "data 'movies' is not one of pictures, text, music"),
+                ('api = "egl"', 'api = "egl"\ndata = ["movies"]', "data 'movies' is not one of pictures, text, music, video"),
                 ("0.5 tap 1 2", "0.5 tap 1", "input 1: '0.5 tap 1': takes 2 numbers"),
                 ("0.5 tap 1 2", "0.5 jump", "input 1: '0.5 jump': the second word is not one of " + ", ".join(input_events.ACTIONS)),
                 ("every = 2.0\n", "", "input 1: times without every")):
