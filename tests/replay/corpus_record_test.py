@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Recording, verifying and exporting a small workload; the core set's frames and rates.
+"""Recording, verifying and exporting a small workload; the files of the core set.
 
-Usage: corpus_record_test.py TILEPRESS CORE_FOLDER [WORKLOAD...]"""
+Usage: corpus_record_test.py TILEPRESS CORE_FOLDER"""
 import hashlib
 import json
-import re
 import subprocess
 import sys
 import tarfile
@@ -12,7 +11,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-COMMAND, CORE, WORKLOADS = sys.argv[1], Path(sys.argv[2]), sys.argv[3:]
+COMMAND, CORE = sys.argv[1], Path(sys.argv[2])
 RECIPE = """name = "{name}"
 category = "3D"
 stands_for = "tests"
@@ -116,14 +115,6 @@ class Core(unittest.TestCase):
             self.assertEqual(hashlib.sha256(trace).hexdigest(), info["trace_sha256"], info["name"])
             self.assertTrue((folder / "copyright").is_file())
             self.assertIn(info["trace_sha256"], (CORE / "manifest.toml").read_text(encoding="utf-8"), info["name"])
-
-    def test_frames_and_rates_are_the_recorded_ones(self):
-        """Mesa draws differently on other processors: differing frames are counted, other rates of equal frames fail."""
-        done = corpus("verify", "-o", CORE, *WORKLOADS)
-        print(done.stderr, end="")
-        for line in done.stderr.splitlines():
-            if line.startswith("tilepress: "):
-                self.assertIsNotNone(re.fullmatch(r"tilepress: [\w-]+: \d+ of \d+ frames differ from those recorded with .*", line), line)
 
 
 if __name__ == "__main__":
