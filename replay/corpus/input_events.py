@@ -1,4 +1,5 @@
 """Input events: lines such as "4.0 tap 300 220", and the xdotool commands that make them.
+Words that begin with "page" are for the browser instead (devtools.py).
 
     TIME tap X Y                       presses and releases
     TIME drag X1 Y1 X2 Y2 SECONDS      a swipe of a finger
@@ -6,8 +7,12 @@
     TIME move X Y                      moves the pointer
     TIME key NAME...                   presses keys, one after the other
     TIME hold NAME SECONDS             holds a key
+    TIME press NAME..., release NAME...   presses keys, and lets go of them at another time
     TIME type TEXT                     types a text, 100 ms a letter
+    TIME page swipe|press|run ...      an action in Chromium's page
 """
+import devtools
+
 STEP_SECONDS = 1 / 60
 TAP_SECONDS = 0.08
 
@@ -61,13 +66,27 @@ def _hold(words):
     return ["keydown", words[0], "sleep", f"{float(words[1])}", "keyup", words[0]]
 
 
+def _of_keys(action):
+    def make(words):
+        if not words:
+            raise ValueError("takes a key")
+        return [word for name in words for word in (action, name)]
+    return make
+
+
 def _type(words):
     if not words:
         raise ValueError("takes a text")
     return ["type", "--delay", "100", " ".join(words)]
 
 
-ACTIONS = {"tap": _tap, "drag": _drag, "scroll": _scroll, "move": _move, "key": _key, "hold": _hold, "type": _type}
+def _page(words):
+    devtools.message(words)
+    return ["page", *words]
+
+
+ACTIONS = {"tap": _tap, "drag": _drag, "scroll": _scroll, "move": _move, "key": _key, "hold": _hold, "press": _of_keys("keydown"),
+           "release": _of_keys("keyup"), "type": _type, "page": _page}
 
 
 def parse(line):

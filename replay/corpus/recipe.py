@@ -11,14 +11,21 @@ CATEGORIES = ("UI", "2D", "3D")
 # Key: type, required.
 FIELDS = {
     "name": (str, True), "category": (str, True), "stands_for": (str, True), "licence": (str, True),
-    "packages": (dict, True), "npm": (dict, False), "command": (list, True), "api": (str, True),
-    "environment": (dict, False), "window": (dict, False), "data": (list, False), "clock": (str, False),
+    "packages": (dict, True), "npm": (dict, False), "command": (list, False), "page": (str, False), "flags": (list, False),
+    "api": (str, True),
+    "environment": (dict, False), "window": (dict, False), "data": (list, False), "files": (dict, False), "clock": (str, False),
     "input": (list, False), "begins": (float, True), "frames": (int, True), "checks": (dict, True),
     "remark": (str, False),
 }
 WINDOW_FIELDS = {"size": str, "manager": str}
 CHECK_FIELDS = {"distinct": int, "change": float, "rate_tolerance": float}
 INPUT_FIELDS = {"at": float, "every": float, "times": int, "do": list}
+# Chromium draws a page by GL ES through EGL, listens for DevTools, and finds no network. --test-type hides the bar about flags.
+BROWSER = ["chromium", "--no-sandbox", "--test-type", "--use-gl=angle", "--use-angle=gles-egl", "--ignore-gpu-blocklist",
+           "--no-first-run", "--no-default-browser-check", "--password-store=basic", "--disable-component-update",
+           "--disable-background-networking", "--host-resolver-rules=MAP * ~NOTFOUND", "--allow-file-access-from-files",
+           "--force-device-scale-factor=2", "--hide-scrollbars", "--touch-events=enabled", "--remote-debugging-port=0",
+           "--user-data-dir={HOME}/browser"]
 DATA = ("pictures", "text", "music", "video")
 
 
@@ -30,15 +37,18 @@ class Recipe:
     stands_for: str
     licence: str
     packages: dict
-    command: list
     api: str
     begins: float
     frames: int
     checks: dict
+    command: list = field(default_factory=list)
+    page: str = ""
+    flags: list = field(default_factory=list)
     npm: dict = field(default_factory=dict)
     environment: dict = field(default_factory=dict)
     window: dict = field(default_factory=dict)
     data: list = field(default_factory=list)
+    files: dict = field(default_factory=dict)
     clock: str = ""
     input: list = field(default_factory=list)
     remark: str = ""
@@ -50,6 +60,11 @@ class Recipe:
     @property
     def manager(self):
         return self.window.get("manager", "matchbox")
+
+    @property
+    def program(self):
+        """The command line, with {HOME}, {DATA} and {NPM} in it."""
+        return [*BROWSER, *self.flags, f"--app=file://{self.page}"] if self.page else self.command
 
     def events(self):
         """All timed events, sorted: pairs of seconds after the first frame and an event."""
@@ -86,11 +101,19 @@ def _value_faults(table):
         faults.append("begins is not in 0..300 seconds")
     if not table["packages"] or not all(isinstance(version, str) for version in table["packages"].values()):
         faults.append("packages lists no package with its version")
-    if not table["command"] or not all(isinstance(word, str) for word in table["command"]):
-        faults.append("command is not a list of words")
+    for key in ("command", "flags"):
+        if not all(isinstance(word, str) for word in table.get(key, [])) or table.get(key) == []:
+            faults.append(f"{key} is not a list of words")
+    if ("command" in table) == ("page" in table):
+        faults.append("neither command nor page" if "page" not in table else "both command and page")
     faults += [f"data '{name}' is not one of {', '.join(DATA)}" for name in table.get("data", []) if name not in DATA]
     faults += [f"environment: {key} is no text" for key, value in table.get("environment", {}).items()
                if not isinstance(value, str)]
+    for path, text in table.get("files", {}).items():
+        if not isinstance(text, str):
+            faults.append(f"files: {path} is no text")
+        if path.startswith("/") or ".." in path.split("/"):
+            faults.append(f"files: {path} is not below HOME")
     for key in ("stands_for", "licence"):
         if not table[key].strip():
             faults.append(f"{key} is empty")

@@ -67,7 +67,7 @@ def expand(text, places):
 
 def launch_line(recipe, trace, runs, places):
     """The program under apitrace's wrapper, and that under the shim, which notes when each frame is presented."""
-    program = [expand(word, places) for word in recipe.command]
+    program = [expand(word, places) for word in recipe.program]
     clock = []
     if recipe.clock:
         clock = ["env", "FAKETIME_DONT_FAKE_MONOTONIC=1", "faketime", recipe.clock]

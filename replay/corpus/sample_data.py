@@ -90,10 +90,19 @@ def _packages(npm, place):
         raise Fault(f"npm: {(done.stderr.strip().splitlines() or ['failed'])[0]}")
 
 
+def _files(texts, home):
+    """Writes a program's settings, which are part of the recipe."""
+    for name, text in texts.items():
+        path = home / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
 def make_data(recipe, places):
     makers = {"pictures": lambda: _pictures(places["HOME"] / "Pictures", recipe.packages), "text": lambda: _text(places["DATA"]),
               "video": lambda: _video(places["HOME"] / "Videos", recipe.packages), "music": lambda: _music(places["HOME"] / "Music")}
     for name in recipe.data:
         makers[name]()
+    _files(recipe.files, places["HOME"])
     if recipe.npm:
         _packages(recipe.npm, places["NPM"])

@@ -7,6 +7,7 @@ import threading
 import time
 from pathlib import Path
 
+import devtools
 from corpus_messages import Fault
 
 # Programs draw with llvmpipe, find no sound card and no accessibility bus, and store settings in memory.
@@ -86,14 +87,24 @@ class Session:
             end_group(process)
         self.log.close()
 
+    def _send(self, words):
+        if words[0] != "page":
+            subprocess.run(["xdotool", *words], env=self.environment, check=False, stdin=subprocess.DEVNULL,
+                           stdout=self.log, stderr=self.log, timeout=120)
+            return
+        try:
+            devtools.perform(Path(self.environment["HOME"]), words[1:])
+        except (Fault, OSError, ValueError) as error:
+            self.log.write(f"page {' '.join(words[1:])}: {error}\n".encode())
+            self.log.flush()
+
     def perform(self, events, begin, over):
         """Starts a thread that sends the events at their times after `begin`, until `over` is set."""
         def send():
             for seconds, words in events:
                 if over.wait(max(0.0, begin + seconds - time.monotonic())):
                     return
-                subprocess.run(["xdotool", *words], env=self.environment, check=False, stdin=subprocess.DEVNULL,
-                               stdout=self.log, stderr=self.log, timeout=120)
+                self._send(words)
         thread = threading.Thread(target=send, daemon=True)
         thread.start()
         return thread

@@ -13,6 +13,7 @@ COMMAND, CORPUS = sys.argv[1], Path(sys.argv[2])
 sys.path.insert(0, str(CORPUS))
 sys.dont_write_bytecode = True
 
+import devtools  # noqa: E402
 import input_events  # noqa: E402
 import recipe  # noqa: E402
 import trimming  # noqa: E402
@@ -73,6 +74,11 @@ class Recipes(unittest.TestCase):
                 ('licence = "MIT"', 'licence = "MIT"\nlicense = "MIT"', "unknown key 'license'"),
                 ('packages = { nothing = "1" }', "packages = {}", "packages lists no package with its version"),
                 ('command = ["true"]', "command = []", "command is not a list of words"),
+                ('command = ["true"]', "", "neither command nor page"),
+                ('api = "egl"', 'api = "egl"\npage = "/index.html"', "both command and page"),
+                ('api = "egl"', 'api = "egl"\nfiles = { "/etc/motd" = "" }', "files: /etc/motd is not below HOME"),
+                ("0.5 tap 1 2", "0.5 page swipe 1", "input 1: '0.5 page swipe 1': takes 5 numbers"),
+                ("0.5 tap 1 2", "0.5 page jump", "input 1: '0.5 page jump': takes one of swipe, press, run"),
                 ("distinct = 2, ", "", "checks: distinct is missing"),
                 ("change = 0.1", 'change = "much"', "checks: change is not of type float"),
                 ('api = "egl"', 'api = "egl"\nwindow = { size = "big" }', "window: size is not WIDTHxHEIGHT"),
@@ -153,6 +159,14 @@ class Events(unittest.TestCase):
         events = input_events.expand(blocks)
         self.assertEqual([seconds for seconds, _ in events], [1.0, 1.5, 3.0, 3.5])
         self.assertEqual(events[1][1], ["mousemove", "1", "2"])
+
+    def test_of_a_page_go_to_the_browser(self):
+        self.assertEqual(input_events.parse("1 page run scrollTo(0, 9)"), (1.0, ["page", "run", "scrollTo(0,", "9)"]))
+        self.assertEqual(devtools.message(["press", "3", "4"]),
+                         ("Input.synthesizeTapGesture", {"x": 3.0, "y": 4.0, "gestureSourceType": "touch"}))
+
+    def test_keys_stay_pressed(self):
+        self.assertEqual(input_events.parse("0 press Up a")[1], ["keydown", "Up", "keydown", "a"])
 
     def test_a_drag_ends_where_it_says(self):
         _, words = input_events.parse("0 drag 0 0 100 50 0.5")
