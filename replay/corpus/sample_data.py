@@ -17,7 +17,7 @@ TEXTS = ("/usr/share/common-licenses/GPL-3", "/usr/share/common-licenses/Artisti
 def _convert(words):
     """Runs ffmpeg. Raises Fault."""
     try:
-        done = subprocess.run(["nice", "ffmpeg", "-loglevel", "error", "-y", *words], stdin=subprocess.DEVNULL, capture_output=True,
+        done = subprocess.run(["ffmpeg", "-loglevel", "error", "-y", *words], stdin=subprocess.DEVNULL, capture_output=True,
                               text=True, check=False)
     except OSError as error:
         raise Fault(f"ffmpeg: {error.strerror}") from error
