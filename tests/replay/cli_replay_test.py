@@ -205,6 +205,63 @@ class Manifests(ReplayCase):
         self.expect(USAGE, "traces.toml: line 1: lists no [[trace]]", "replay", "--manifest", "traces.toml")
 
 
+class MesaManifests(ReplayCase):
+    """As Mesa's continuous integration has them: today a mapping, earlier a list."""
+    MAPPING = b"""traces-db:
+  download-url: "https://traces.example/public/"
+
+traces:
+  glmark2/desktop:effect=blur-v2.trace:
+    gl-vmware-llvmpipe:
+      checksum: f9af0e7e0a3a1b3a0b6e2f6b6b0c6b31
+    freedreno-a630:
+      label: [skip, flakes]
+      text: Flaky.
+  supertuxkart/race.rdc:
+    gl-vmware-llvmpipe:
+      checksum: 58359ea4caf6ad44c6b65526881bbd17
+"""
+    LIST = b"""traces:
+  - path: glmark2/desktop:effect=blur-v2.trace
+    expectations:
+      - device: gl-vmware-llvmpipe
+        checksum: 58359ea4caf6ad44c6b65526881bbd17
+"""
+    NAME = "glmark2-desktop_effect=blur-v2"
+
+    def setUp(self):
+        super().setUp()
+        os.makedirs(self.path("files/glmark2"))
+        os.symlink(EGL, self.path("files/glmark2/desktop:effect=blur-v2.trace"))
+
+    def test_take_traces_from_a_folder_and_categories_from_an_option(self):
+        self.write("traces-x.yml", self.MAPPING)
+        said = self.replay("-s", "red", "--frames", "0-2", "--manifest", "traces-x.yml", "--trace-folder", "files",
+                           "--category", "glmark2*=3D", status=FAILED)
+        rows = {row["trace"]: (row["status"], row["category"]) for row in read_rows(self.path("out/replay.csv"))}
+        self.assertEqual(rows[self.NAME], ("done", "3D"))
+        missing = [line for line in said.splitlines() if line.startswith("tilepress: ")]
+        self.assertEqual(missing, ["tilepress: files/supertuxkart/race.rdc: No such file or directory"])
+
+    def test_are_lists_too_and_inputs_of_a_study(self):
+        self.write("files/traces-y.yaml", self.LIST)
+        for words in (["files/traces-y.yaml"], ["--manifest", "files/traces-y.yaml"],
+                      ["--manifest", "files/traces-y.yaml", "--trace-folder", "files"]):
+            done = self.run_command("study", "paper", "-n", "-o", "plan", "--category", "glmark2*=3D", *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stdout.decode(), rf"{self.NAME} +3D +trace")
+
+    def test_are_refused_with_the_line_of_the_fault(self):
+        for text, reason in (("x: 1", "has no key 'traces'"), ("- x", "has no key 'traces'"),
+                             ("traces: x", "line 1: traces is no list and no mapping"),
+                             ("traces:\n  - paht: x", "line 2: a trace without path"),
+                             ("traces:\n  ../x.trace: {}", "line 2: '../x.trace' leaves the folder of the traces"),
+                             ("traces: []", "line 1: lists no trace"),
+                             ("traces: [", "line 2: end of sequence flow not found")):
+            self.write("bad.yml", text.encode() + b"\n")
+            self.expect(USAGE, "bad.yml: " + reason, "replay", "--manifest", "bad.yml")
+
+
 class Failures(ReplayCase):
     def test_are_told_in_a_line_each_and_do_not_stop_the_others(self):
         with open(EGL, "rb") as file:

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "capture/mesa_manifest.h"
 #include "toml_text.h"
 
 namespace tilepress {
@@ -74,7 +75,8 @@ std::string replay_name(const std::string& trace_path) {
   return (file.extension() == ".trace" ? file.stem() : file).string();
 }
 
-Result<std::vector<ReplayInput>> read_manifest(const std::string& path) {
+Result<std::vector<ReplayInput>> read_manifest(const std::string& path, const std::string& trace_folder) {
+  if (is_mesa_manifest(path)) return read_mesa_manifest(path, trace_folder);
   const auto table = parse_toml([&] { return toml::parse_file(path); });
   if (!table) return about(path, table.error());
   auto inputs = take_all(*table, fs::path(path).parent_path());

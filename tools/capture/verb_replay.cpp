@@ -11,6 +11,7 @@
 #include "command_line.h"
 #include "common_options.h"
 #include "progress_line.h"
+#include "report/category_rules.h"
 #include "streams/ending_signals.h"
 #include "verb.h"
 
@@ -22,17 +23,20 @@ constexpr const char* kExamples =
     "  tilepress replay -o out game.trace\n"
     "  tilepress replay -o out -j 2 --resume traces/*.trace\n"
     "  tilepress replay -o out --manifest traces.toml --verify\n"
+    "  tilepress replay -o out --manifest traces-llvmpipe.yml --trace-folder traces-db --category 'glmark2*=3D'\n"
     "  tilepress replay -s vdcp --frames 100-199 --display xvfb game.trace\n"
     "\n"
     "The run of each trace goes to DIR/<trace name>/. replay.csv and categories.csv in DIR hold the rates\n"
     "of the traces and their harmonic means. A manifest has a [[trace]] table per trace: path, and\n"
-    "optionally name, sha256, category (UI, 2D, 3D) and frames.\n"
+    "optionally name, sha256, category (UI, 2D, 3D) and frames. Mesa's traces-*.yml have no categories: give\n"
+    "them with --category. Checksums of images in them are not read.\n"
     "Exit status: 1 if a trace failed, 3 if nothing was captured at all.\n";
 
 struct VerbOptions {
   ReplayOptions replay;
   std::vector<std::string> traces;
-  std::string manifest;
+  std::string manifest, trace_folder;
+  std::vector<std::string> categories;
   ProgressMode progress = ProgressMode::kAuto;
   unsigned jobs = 1;
   bool verbose = false, quiet = false;
@@ -46,8 +50,12 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
   add_capture_options(app, replay.run);
   app.add_option("TRACE", options.traces, "Traces");
   app.add_option("--manifest", options.manifest,
-                 "TOML file that lists traces with checksum, category and frames")
+                 "File that lists traces: TOML with checksum, category and frames, or Mesa's traces-*.yml")
       ->type_name("FILE");
+  app.add_option("--trace-folder", options.trace_folder,
+                 "Folder of the traces that Mesa's manifest lists (default: that of the manifest)")
+      ->type_name("DIR");
+  add_category_option(app, options.categories);
   app.add_option("-j,--jobs", options.jobs, "Traces to replay at a time (default: 1)")
       ->type_name("N")
       ->check(CLI::Range(1u, 1024u));
@@ -72,10 +80,11 @@ Result<std::vector<ReplayInput>> gather_inputs(const VerbOptions& options) {
   for (const std::string& path : options.traces)
     inputs.push_back({path, replay_name(path), "", "", std::nullopt});
   if (!options.manifest.empty()) {
-    const auto listed = read_manifest(options.manifest);
+    const auto listed = read_manifest(options.manifest, options.trace_folder);
     if (!listed) return listed.error();
     inputs.insert(inputs.end(), listed->begin(), listed->end());
   }
+  for (ReplayInput& input : inputs) input.category = category_by_rules(options.categories, input.name, input.category);
   std::map<std::string, std::string> taken;
   for (const ReplayInput& input : inputs) {
     const auto [other, added] = taken.emplace(input.name, input.path);

@@ -5,10 +5,10 @@
 #include <glob.h>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <map>
 
+#include "capture/mesa_manifest.h"
 #include "capture/trace_manifest.h"
 #include "frames/cached_surface.h"
 #include "images/image_kind.h"
@@ -24,16 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kKindNames[] = {"trace", "frame cache", "images", "run"};
 
-/// A name that can be a folder's.
-std::string file_name_of(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("._-+=", c) != nullptr;
-    out += plain ? c : '_';
-  }
-  return out.empty() || out[0] == '.' ? "_" + out : out;
-}
-
 /// "folder" of folder/, of folder and of folder/..
 std::string last_name(const fs::path& path) {
   fs::path full = fs::absolute(path).lexically_normal();
@@ -43,11 +33,12 @@ std::string last_name(const fs::path& path) {
 
 class WorkloadFinder {
  public:
+  explicit WorkloadFinder(std::string trace_folder) : trace_folder_(std::move(trace_folder)) {}
   FoundWorkloads find(const std::vector<std::string>& inputs) {
     for (const std::string& input : inputs) add_input(input);
     std::map<std::string, int> uses;
     for (Workload& workload : found_.list) {
-      workload.name = file_name_of(workload.name);
+      workload.name = plain_file_name(workload.name);
       if (const int use = ++uses[workload.name]; use > 1) workload.name += "-" + std::to_string(use);
     }
     return std::move(found_);
@@ -72,7 +63,7 @@ class WorkloadFinder {
     std::error_code code;
     if (fs::is_directory(path, code))
       add_folder(path);
-    else if (path.extension() == ".toml")
+    else if (path.extension() == ".toml" || is_mesa_manifest(path.string()))
       add_manifest(path.string());
     else if (!add_file(path))
       fault(path.string(), "is no trace, frame cache, image, movie or manifest");
@@ -104,7 +95,7 @@ class WorkloadFinder {
   }
 
   void add_manifest(const std::string& path) {
-    const auto listed = read_manifest(path);
+    const auto listed = read_manifest(path, trace_folder_);
     if (!listed) {
       found_.faults.push_back(listed.error());
       return;
@@ -157,6 +148,7 @@ class WorkloadFinder {
     found_.list.push_back(std::move(workload));
   }
 
+  const std::string trace_folder_;
   FoundWorkloads found_;
   fs::path image_folder_;  ///< of the last workload, if images of this folder may join it
 };
@@ -180,8 +172,8 @@ const char* name_of(WorkloadKind kind) {
   return kKindNames[static_cast<size_t>(kind)];
 }
 
-FoundWorkloads find_workloads(const std::vector<std::string>& inputs) {
-  return WorkloadFinder().find(inputs);
+FoundWorkloads find_workloads(const std::vector<std::string>& inputs, const std::string& trace_folder) {
+  return WorkloadFinder(trace_folder).find(inputs);
 }
 
 void apply_categories(const std::vector<std::string>& rules, StudyFile& study, std::vector<Workload>& workloads) {

@@ -18,6 +18,7 @@ nlohmann::ordered_json to_json(const StudyOptions& options) {
   nlohmann::ordered_json json;
   json["study"] = options.study;
   json["inputs"] = options.inputs;
+  json["trace_folder"] = options.trace_folder;
   json["categories"] = options.categories;
   for (const char* name : kRunOptions) json["options"][name] = find_run_option(name)->text.print(options.run);
   json["chunk"] = options.chunk;
@@ -32,6 +33,7 @@ nlohmann::ordered_json to_json(const StudyOptions& options) {
 StudyOptions from_json(const nlohmann::json& json) {
   StudyOptions options;
   json.at("inputs").get_to(options.inputs);
+  options.trace_folder = json.value("trace_folder", "");
   json.at("categories").get_to(options.categories);
   for (const char* name : kRunOptions) {
     const auto text = json.at("options").at(name).get<std::string>();

@@ -11,7 +11,7 @@ Result<StudyPlan> make_plan(StudyOptions& options) {
   StudyPlan plan{std::move(*study), {}, {}, {}};
   if (options.inputs.empty()) options.inputs = plan.study.inputs;
   if (options.inputs.empty()) return Error{ErrorKind::kBadValue, "no input given (see tilepress study --help)"};
-  FoundWorkloads found = find_workloads(options.inputs);
+  FoundWorkloads found = find_workloads(options.inputs, options.trace_folder);
   for (std::string& input : options.inputs) input = std::filesystem::absolute(input).lexically_normal().string();
   plan.workloads = std::move(found.list);
   plan.faults = std::move(found.faults);

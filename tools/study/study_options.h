@@ -21,6 +21,7 @@ struct StudyOptions {
   std::string study;                    ///< "paper" or a file
   std::string folder;                   ///< of the study, absolute
   std::vector<std::string> inputs;      ///< paths and patterns; empty: those of the study
+  std::string trace_folder;             ///< of the traces that Mesa manifests list; empty: beside the manifest
   std::vector<std::string> categories;  ///< rules "PATTERN=NAME"
   RunOptions run;                       ///< tile, burst, frames and every count; the rest is not used
   RenderOptions render;

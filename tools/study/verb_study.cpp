@@ -35,6 +35,7 @@ constexpr const char* kExamples =
 
 struct VerbOptions {
   StudyCommand command;
+  std::vector<std::string> manifests;
   bool plan_only = false, example = false;
 };
 
@@ -50,6 +51,11 @@ void add_study_options(CLI::App& app, VerbOptions& options) {
   study.run.output = "tilepress-study";
   app.add_option("STUDY", study.study, "paper, or a study file");
   app.add_option("INPUT", study.inputs, "Inputs (default: those of the study file)")->type_name("...");
+  app.add_option("--manifest", options.manifests, "A further input: list of traces, TOML or Mesa's traces-*.yml")
+      ->type_name("FILE");
+  app.add_option("--trace-folder", study.trace_folder,
+                 "Folder of the traces that Mesa's manifests list (default: that of the manifest)")
+      ->type_name("DIR");
   add_run_option(app, study.run, "output", "Folder of the study (default: " + study.run.output + ")");
   app.add_flag("-n,--plan", options.plan_only, "Print tasks, frames and the estimated time, and run nothing");
   app.add_flag("--example", options.example, "Print a commented study file");
@@ -79,6 +85,8 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
   StudyOptions& study = options.command.study;
   if (!options.example && study.study.empty())
     return fail(kExitUsage, "no study given: paper, or a study file (see tilepress study --help)");
+  study.inputs.insert(study.inputs.end(), options.manifests.begin(), options.manifests.end());
+  if (!study.trace_folder.empty()) study.trace_folder = absolute_folder(study.trace_folder);
   study.folder = absolute_folder(study.run.output);
   if (!study.render.cache_folder.empty()) study.render.cache_folder = absolute_folder(study.render.cache_folder);
   if (options.command.verbose) set_message_level("info");
