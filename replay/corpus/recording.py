@@ -7,6 +7,7 @@ import subprocess
 import threading
 import time
 from dataclasses import dataclass
+from pathlib import Path
 
 from corpus_messages import Fault, say
 from frame_digests import TILEPRESS
@@ -114,6 +115,33 @@ def _end(process, session):
             session.log.write(b"the program did not end at SIGQUIT\n")
 
 
+def _writers(trace):
+    """The processes that have the trace open."""
+    found = []
+    for folder in Path("/proc").glob("[0-9]*/fd"):
+        try:
+            if any(os.readlink(link) == str(trace) for link in folder.iterdir()):
+                found.append(int(folder.parent.name))
+        except OSError:
+            continue
+    return found
+
+
+def _end_browser(process, session, trace):
+    """Ends Chromium. It kills the process that draws, with the calls that apitrace's wrapper holds back, and starts another
+    one if that process ends. So the browser stands still while the wrapper writes."""
+    os.killpg(process.pid, signal.SIGSTOP)
+    for writer in _writers(trace):
+        os.kill(writer, signal.SIGQUIT)
+        os.kill(writer, signal.SIGCONT)
+    deadline = time.monotonic() + 20
+    while _writers(trace) and time.monotonic() < deadline:
+        time.sleep(0.1)
+    if _writers(trace):
+        session.log.write(b"the browser did not end at SIGQUIT\n")
+    os.killpg(process.pid, signal.SIGKILL)
+
+
 def record_program(recipe, work):
     """Records into work/whole.trace. Returns the trace and its presents. Raises Fault."""
     trace, runs = work / "whole.trace", work / "runs"
@@ -133,7 +161,10 @@ def record_program(recipe, work):
         finally:
             over.set()
         thread.join(timeout=30)
-        _end(process, session)
+        if recipe.page:
+            _end_browser(process, session, trace)
+        else:
+            _end(process, session)
     if not trace.exists() or trace.stat().st_size == 0:
         raise Fault(f"nothing was recorded through {recipe.api}")
     return trace, presents_of(runs)
