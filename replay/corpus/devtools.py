@@ -1,6 +1,7 @@
 """DevTools: input for pages in Chromium, through the browser's own protocol. One connection per action.
 
-    swipe X Y DX DY SPEED     a finger moves by DX, DY pixels of the page, at SPEED pixels a second
+    swipe X Y DX DY SPEED     scrolls what lies at X, Y as a finger does that moves by DX, DY, at SPEED pixels a second.
+                              Chromium scrolls by touch only on machines with a touch screen, so these are wheel events
     press X Y                 a finger taps
     run SCRIPT                evaluates JavaScript in the page
 """
@@ -28,7 +29,7 @@ def _numbers(words, count):
 def _swipe(words):
     x, y, by_x, by_y, speed = _numbers(words, 5)
     return "Input.synthesizeScrollGesture", {"x": x, "y": y, "xDistance": by_x, "yDistance": by_y, "speed": int(speed),
-                                             "gestureSourceType": "touch", "preventFling": False}
+                                             "gestureSourceType": "mouse"}
 
 
 def _press(words):
