@@ -17,7 +17,6 @@
 #include <algorithm>
 
 #include "amd/dcc_line.h"
-#include "pixels/eight_bit_format.h"
 #include "registry.h"
 
 namespace tilepress {
@@ -83,11 +82,10 @@ class AmdDccEncoder final : public BlockEncoder {
 
 class AmdDccDecoder final : public BlockDecoder {
  public:
-  AmdDccDecoder(const SchemeSpec&, const FormatTraits& format, const ModelOptions&)
-      : readable_(has_eight_bit_channels(format)) {}
+  AmdDccDecoder(const SchemeSpec&, const FormatTraits&, const ModelOptions&) {}
 
   bool begin_frame(BitReader&, uint64_t table_bits, uint32_t csb_bits) override {
-    return readable_ && table_bits == 0 && csb_bits == kCsbBits;
+    return table_bits == 0 && csb_bits == kCsbBits;
   }
   bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
     const uint64_t code = csb.get(kCsbBits);
@@ -107,9 +105,6 @@ class AmdDccDecoder final : public BlockDecoder {
     for (uint32_t i = 0; i < kBlockPixels; ++i) out.pixels[kTraversal[i]] = pixels[i];
     return !csb.overran() && !payload.overran();
   }
-
- private:
-  const bool readable_;
 };
 
 }  // namespace

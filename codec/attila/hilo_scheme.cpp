@@ -95,15 +95,13 @@ class HiloEncoder final : public BlockEncoder {
 
 class HiloDecoder final : public BlockDecoder {
  public:
-  HiloDecoder(const SchemeSpec&, const FormatTraits& format, const ModelOptions&)
-      : pixel_bits_(format.pixel_bits) {}
+  HiloDecoder(const SchemeSpec&, const FormatTraits&, const ModelOptions&) {}
 
   bool begin_frame(BitReader&, uint64_t table_bits, uint32_t csb_bits) override {
     return table_bits == 0 && csb_bits == kCsbBits;
   }
   bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
     const auto cls = static_cast<uint32_t>(csb.get(kCsbBits));
-    if (pixel_bits_ != kPixelBits) return false;
     if (cls == kRawClass) {
       read_raw_block(payload, kPixelBits, out);
       return !csb.overran() && !payload.overran();
@@ -120,9 +118,6 @@ class HiloDecoder final : public BlockDecoder {
     payload.skip(end - payload.position());
     return least <= greatest && !csb.overran() && !payload.overran();
   }
-
- private:
-  const uint32_t pixel_bits_;
 };
 
 }  // namespace

@@ -84,15 +84,14 @@ class MsaaEncoder final : public BlockEncoder {
 
 class MsaaDecoder final : public BlockDecoder {
  public:
-  MsaaDecoder(const SchemeSpec&, const FormatTraits& format, const ModelOptions&)
-      : pixel_bits_(format.pixel_bits) {}
+  MsaaDecoder(const SchemeSpec&, const FormatTraits&, const ModelOptions&) {}
 
   bool begin_frame(BitReader&, uint64_t table_bits, uint32_t csb_bits) override {
     return table_bits == 0 && csb_bits == kCsbBits;
   }
   bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
     const auto number = static_cast<uint32_t>(csb.get(kCsbBits));
-    if (number > kRawLevel || pixel_bits_ != kPixelBits) return false;
+    if (number > kRawLevel) return false;
     if (number == kRawLevel) {
       read_raw_block(payload, kPixelBits, out);
       return !csb.overran() && !payload.overran();
@@ -110,9 +109,6 @@ class MsaaDecoder final : public BlockDecoder {
     payload.skip(end - payload.position());
     return !csb.overran() && !payload.overran();
   }
-
- private:
-  const uint32_t pixel_bits_;
 };
 
 }  // namespace

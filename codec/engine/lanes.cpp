@@ -43,7 +43,7 @@ void Lanes::begin_frame(const FrameContext& frame, std::span<CompressedSurface> 
     block_bits->blocks_y = frame.plane.blocks_y();
     block_bits->raw_bits = raw_block_bits_;
     block_bits->schemes.resize(skipped_.size());
-    for (auto& plane : block_bits->schemes) plane.resize(blocks_);
+    for (size_t i = 0; i < skipped_.size(); ++i) block_bits->schemes[i].resize(skipped_[i] ? 0 : blocks_);
   }
   for (Lane& lane : lanes_)
     begin_lane(lane, frame, stores_ ? &surfaces[lane.index] : nullptr, out[lane.index]);

@@ -97,8 +97,8 @@ class FreqValsEncoder final : public BlockEncoder {
 
 class FreqValsDecoder final : public BlockDecoder {
  public:
-  FreqValsDecoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions& model)
-      : entries_(spec.number("fvc")), pixel_bits_(format.pixel_bits), classes_(burst_classes(model)) {}
+  FreqValsDecoder(const SchemeSpec& spec, const FormatTraits&, const ModelOptions& model)
+      : entries_(spec.number("fvc")), classes_(burst_classes(model)) {}
 
   bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override {
     has_table_ = false;
@@ -109,7 +109,6 @@ class FreqValsDecoder final : public BlockDecoder {
   }
   bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
     const auto bursts = static_cast<uint32_t>(csb.get(classes_.csb_bits()));
-    if (pixel_bits_ != kPixelBits) return false;
     if (bursts == 0) {
       read_raw_block(payload, kPixelBits, out);
       return !csb.overran() && !payload.overran();
@@ -141,7 +140,7 @@ class FreqValsDecoder final : public BlockDecoder {
     lengths.push_back(static_cast<uint8_t>(tables.get(kLengthBits)));
     return !tables.overran() && code_.assign(lengths);
   }
-  const uint32_t entries_, pixel_bits_;
+  const uint32_t entries_;
   const RasClasses classes_;
   bool has_table_ = false;
   ColorTable table_;

@@ -17,7 +17,6 @@
 
 #include "intel/intel11_unit.h"
 #include "intel/pixel_pair.h"
-#include "pixels/eight_bit_format.h"
 #include "registry.h"
 
 namespace tilepress {
@@ -133,11 +132,10 @@ class Intel11Encoder final : public BlockEncoder {
 
 class Intel11Decoder final : public BlockDecoder {
  public:
-  Intel11Decoder(const SchemeSpec&, const FormatTraits& format, const ModelOptions&)
-      : readable_(has_eight_bit_channels(format)) {}
+  Intel11Decoder(const SchemeSpec&, const FormatTraits&, const ModelOptions&) {}
 
   bool begin_frame(BitReader&, uint64_t table_bits, uint32_t csb_bits) override {
-    return readable_ && table_bits == 0 && csb_bits == kPairs * kModeBits;
+    return table_bits == 0 && csb_bits == kPairs * kModeBits;
   }
   bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
     for (uint32_t i = 0; i < kPairs; ++i) {
@@ -147,9 +145,6 @@ class Intel11Decoder final : public BlockDecoder {
     }
     return !csb.overran() && !payload.overran();
   }
-
- private:
-  const bool readable_;
 };
 
 }  // namespace

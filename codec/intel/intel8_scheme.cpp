@@ -18,7 +18,6 @@
 // mean: their values are ours.
 #include "intel/byte_ranges.h"
 #include "intel/pixel_pair.h"
-#include "pixels/eight_bit_format.h"
 #include "registry.h"
 
 namespace tilepress {
@@ -106,11 +105,10 @@ class Intel8Encoder final : public BlockEncoder {
 
 class Intel8Decoder final : public BlockDecoder {
  public:
-  Intel8Decoder(const SchemeSpec&, const FormatTraits& format, const ModelOptions&)
-      : readable_(has_eight_bit_channels(format)) {}
+  Intel8Decoder(const SchemeSpec&, const FormatTraits&, const ModelOptions&) {}
 
   bool begin_frame(BitReader&, uint64_t table_bits, uint32_t csb_bits) override {
-    return readable_ && table_bits == 0 && csb_bits == kPairs * kStatusBits;
+    return table_bits == 0 && csb_bits == kPairs * kStatusBits;
   }
   bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
     for (uint32_t i = 0; i < kPairs; ++i) {
@@ -125,9 +123,6 @@ class Intel8Decoder final : public BlockDecoder {
     }
     return !csb.overran() && !payload.overran();
   }
-
- private:
-  const bool readable_;
 };
 
 }  // namespace

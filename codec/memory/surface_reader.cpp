@@ -83,6 +83,9 @@ Result<void> SurfaceReader::open(const CompressedSurface& surface, const ReadOpt
   if (const auto checked = surface.consistent(); !checked) return checked;
   const SchemeInfo* info = find_scheme(surface.scheme.name);
   if (info == nullptr) return Error{ErrorKind::kBadBits, "unknown scheme '" + surface.scheme.name + "'"};
+  if (!info->supports(surface.format))
+    return Error{ErrorKind::kBadBits, "scheme " + surface.scheme.name + " does not support " +
+                                          std::string(traits(surface.format).name) + " surfaces"};
   if (info->needs_frame_before)
     return Error{ErrorKind::kBadBits,
                  "a frame of scheme " + surface.scheme.name + " cannot be read without the frame before"};

@@ -43,10 +43,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
   if (!spec) __builtin_trap();
   constexpr PixelFormat kFormats[] = {PixelFormat::kRgba8, PixelFormat::kRgbx8, PixelFormat::kRgb565,
                                       PixelFormat::kRgb10a2};
-  const FormatTraits& format = traits(kFormats[input.byte() % std::size(kFormats)]);
+  const PixelFormat pixel_format = kFormats[input.byte() % std::size(kFormats)];
+  const FormatTraits& format = traits(pixel_format);
   ModelOptions model;
   model.burst_bits = 16u << input.byte() % 8;
   const SchemeInfo* info = find_scheme(spec->name);
+  if (!info->supports(pixel_format)) return 0;
   const auto decoder = info->make_decoder(*spec, format, model);
   uint32_t csb_bits = input.byte();
   if (csb_bits == 255) csb_bits = info->make_encoder(*spec, format, model)->csb_bits();

@@ -185,7 +185,7 @@ struct SchemeInfo {
   bool needs_frame_before = false;  ///< a frame's bits alone do not restore it: use decode_at
   bool eight_bit_only = false;      ///< defined for RGBA8 and RGBX8 pixels only
 
-  /// False: the engine skips the scheme on surfaces of this format, and there are no rows.
+  /// False: the engine skips the scheme on surfaces of this format, and SurfaceReader refuses them.
   bool supports(PixelFormat format) const {
     return !eight_bit_only || format == PixelFormat::kRgba8 || format == PixelFormat::kRgbx8;
   }

@@ -19,7 +19,7 @@ struct CompressedSurface;
 struct BlockBits {
   uint32_t blocks_x = 0, blocks_y = 0;
   uint32_t raw_bits = 0;                       ///< of a block that is not compressed
-  std::vector<std::vector<uint16_t>> schemes;  ///< in the order of the schemes; blocks in raster order
+  std::vector<std::vector<uint16_t>> schemes;  ///< in their order, blocks in raster order; empty: skipped
 };
 
 /// Holds the state of one surface: the frame before, and one FVC and one CCD per FVC configuration in use. A

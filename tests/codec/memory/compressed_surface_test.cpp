@@ -38,6 +38,23 @@ std::vector<PixelFormat> formats_of(const std::string& scheme) {
   return formats;
 }
 
+TEST(SurfaceReader, RefusesASchemeThatDoesNotSupportTheFormat) {
+  for (const char* scheme : {"intel8", "intel11", "amddcc", "freqvals", "hilo", "msaa"}) {
+    CompressedSurface surface = compress(scheme, {mixed_frame(17, 9, PixelFormat::kRgba8, 1)}, {});
+    SurfaceReader reader;
+    ASSERT_TRUE(reader.open(surface, {})) << scheme;
+    for (const PixelFormat format : {PixelFormat::kRgb10a2, PixelFormat::kRgb565}) {
+      surface.format = format;
+      surface.payload.resize(surface.blocks() * surface.slot_bytes());
+      surface.block_bits.assign(surface.blocks(), 0);
+      const auto opened = reader.open(surface, {});
+      ASSERT_FALSE(opened) << scheme;
+      EXPECT_EQ(opened.error().text, std::string("scheme ") + scheme + " does not support " +
+                                         std::string(traits(format).name) + " surfaces");
+    }
+  }
+}
+
 class EverySchemeTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(EverySchemeTest, SequentialReadGivesEveryPixelOfEveryShapeAndFormat) {
