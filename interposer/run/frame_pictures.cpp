@@ -51,6 +51,7 @@ Result<void> FramePictures::write_heat_maps(const FrameStatistics& frame) {
   const std::string folder = run_path_ + "/heatmaps";
   mkdir(folder.c_str(), 0777);
   for (size_t i = 0; i < bits_.schemes.size() && i < scheme_names_.size(); ++i) {
+    if (bits_.schemes[i].empty()) continue;
     std::string bytes = "P5\n# scheme " + scheme_names_[i] + "\n" + std::to_string(bits_.blocks_x) + " " +
                         std::to_string(bits_.blocks_y) + "\n" + std::to_string(bits_.raw_bits) + "\n";
     for (const uint16_t bits : bits_.schemes[i]) {

@@ -99,6 +99,7 @@ int LivePictureWriter::write(const std::string& run_path, const LiveState& state
     store_words(slot.head(), head_words, kHeadWords);
     store_words(slot.body(), rows.data(), rows.size());
     for (size_t i = 0; i < head.scheme_count; ++i) {
+      if (bits.schemes[i].empty()) std::fill(counts.begin(), counts.end(), ~uint64_t{0});
       std::memcpy(counts.data(), bits.schemes[i].data(), bits.schemes[i].size() * sizeof(uint16_t));
       store_words(slot.body() + layout.pixel_words + i * layout.plane_words, counts.data(), counts.size());
     }
@@ -164,6 +165,7 @@ bool LivePictureReader::copy_slot(uint64_t number, LivePicture& out) {
     out.bits[i].resize(head.blocks_x * head.blocks_y);
     std::memcpy(out.bits[i].data(), counts.data() + i * layout.plane_words,
                 out.bits[i].size() * sizeof(uint16_t));
+    if (out.bits[i].front() == kNoBlockBits) out.bits[i].clear();
   }
   return true;
 }

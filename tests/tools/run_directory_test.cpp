@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tilepress/frame_pictures.h"
 #include "tilepress/run_reader.h"
 #include "tilepress/statistics_rows.h"
 
@@ -269,6 +270,27 @@ TEST_F(RunDirectory, ASurplusFieldIsNotThatOfAMissingColumn) {
   rows.erase(rows.find(column), column.size());
   std::ofstream(path_ + "/frames.csv") << rows;
   EXPECT_EQ(reading_error(), path_ + "/frames.csv: record 2: encode_ns: the field is missing");
+}
+
+TEST_F(RunDirectory, HasNoHeatMapOfASchemeThatSkipsTheSurface) {
+  options_.schemes = {*parse_scheme("red"), *parse_scheme("intel8")};
+  options_.heatmaps_every = 1;
+  fs::create_directory(path_);
+  FramePictures pictures;
+  pictures.open(path_, options_);
+  const std::vector<std::byte> bytes(8 * 8 * 4);
+  for (const PixelFormat format : {PixelFormat::kRgba8, PixelFormat::kRgb565}) {
+    SurfaceEngine engine(options_.schemes, options_.model);
+    FrameStatistics out;
+    out.surface = static_cast<uint32_t>(format);
+    const SurfaceView view{bytes.data(), static_cast<ptrdiff_t>(traits(format).pixel_bits), 8, 8, format};
+    engine.note_block_bits(pictures.bits_for(0));
+    engine.process(view, out);
+    ASSERT_TRUE(pictures.write(out, view));
+    const std::string stem = path_ + "/heatmaps/" + std::to_string(out.surface) + "-000000-";
+    EXPECT_TRUE(fs::exists(stem + "red.pgm"));
+    EXPECT_EQ(fs::exists(stem + "intel8.pgm"), format == PixelFormat::kRgba8);
+  }
 }
 
 TEST_F(RunDirectory, AnEmptyFolderHoldsNoRun) {

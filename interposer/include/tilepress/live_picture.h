@@ -34,7 +34,7 @@ struct LivePictureHead {
 ///   a LivePictureHead
 ///   `height` rows of 8 · blocks_x pixel words
 ///   per scheme the payload bits of its blocks in raster order, 16 bits each, padded to a multiple of four
-///   blocks
+///   blocks; kNoBlockBits in every block if the scheme does not support the surface's format
 struct LivePictureFile {
   uint64_t magic;  ///< bytes "TPPICT\0\0"
   uint32_t version;
@@ -44,6 +44,7 @@ struct LivePictureFile {
   std::atomic<uint64_t> retired;  ///< 1: a larger file has replaced this one, or the run has ended
 };
 constexpr size_t kLiveSlotsOffset = 4096;
+constexpr uint16_t kNoBlockBits = 0xFFFF;
 
 /// The capture's side. Makes the file with the first picture, and a new file when a frame is too large.
 class LivePictureWriter {
@@ -71,7 +72,7 @@ class LivePictureWriter {
 struct LivePicture {
   LivePictureHead head{};
   std::vector<uint32_t> pixels;             ///< words as PixelPlane has them, height rows of 8 · blocks_x
-  std::vector<std::vector<uint16_t>> bits;  ///< per scheme, blocks in raster order
+  std::vector<std::vector<uint16_t>> bits;  ///< per scheme, blocks in raster order; empty: it has no bits
 };
 
 /// The watcher's side. It maps the file read-only.

@@ -64,6 +64,20 @@ TEST_F(LivePictureTest, APictureComesWholeAndOnce) {
   EXPECT_TRUE(is_sample(picture, 9));
 }
 
+TEST_F(LivePictureTest, ASchemeThatSkipsTheSurfaceHasNoBits) {
+  LivePictureWriter writer;
+  LivePictureReader reader;
+  LivePicture picture;
+  ASSERT_EQ(write_sample(writer, folder_, 4), 0);
+  SamplePicture sample(6, 21, 11);
+  sample.bits.schemes[0].clear();
+  ASSERT_EQ(writer.write(folder_, sample_state(6), sample.view, sample.bits, 128), 0);
+  ASSERT_TRUE(reader.read(folder_, picture));
+  ASSERT_EQ(picture.bits.size(), 2u);
+  EXPECT_TRUE(picture.bits[0].empty());
+  EXPECT_EQ(picture.bits[1], std::vector<uint16_t>(6, 7));
+}
+
 TEST_F(LivePictureTest, ALargerSurfaceMakesALargerFileThatTheReaderFinds) {
   LivePictureWriter writer;
   LivePictureReader reader;

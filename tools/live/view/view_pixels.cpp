@@ -33,7 +33,7 @@ ScreenImage frame_image(const LivePicture& picture, uint32_t longest_side) {
 
 ScreenImage heat_image(const LivePicture& picture, size_t scheme, bool opaque) {
   ScreenImage out;
-  if (scheme >= picture.bits.size()) return out;
+  if (scheme >= picture.bits.size() || picture.bits[scheme].empty()) return out;
   out.width = static_cast<uint32_t>(picture.head.blocks_x);
   out.height = static_cast<uint32_t>(picture.head.blocks_y);
   out.bytes.reserve(picture.bits[scheme].size() * 4);
