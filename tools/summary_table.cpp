@@ -52,6 +52,11 @@ std::string rates_text(const std::vector<std::string>& names, const std::vector<
   for (size_t i = 0; i < names.size(); ++i) {
     const SchemeStatistics& sum = totals[i];
     const uint64_t moved = sum.moved_bits();
+    if (sum.blocks == 0) {  // the scheme supports the format of no surface
+      out += fmt::format("  {:<{}}  {:>9}  {:>12}  {:>8}  {:>7}  {:>9}  {:>8}\n", names[i], width, "-", "-", "-", "-",
+                         "-", "-");
+      continue;
+    }
     out +=
         fmt::format("  {:<{}}  {:>9.4f}  {:>12.4f}  {:>6.2f} %  {:>5.2f} %  {:>7.3f} %  {:>6.1f} %\n",
                     names[i], width, sum.rate(), sum.rate_payload(),

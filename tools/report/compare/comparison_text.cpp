@@ -74,11 +74,16 @@ std::string exact(double value) {
   return std::isnan(value) ? "" : csv_number(value);
 }
 
+/// NaN for a scheme without rows: it does not support the surfaces' format.
+double rate_of(const SchemeStatistics& sums) {
+  return sums.raw_bits > 0 ? sums.rate() : NAN;
+}
+
 TextGrid scheme_grid(const std::vector<RunComparison>& runs) {
   TextGrid grid{"", {"workload", "scheme", "frames", "rate A", "rate B", "change", "better", "worse"}, {}, 2};
   for (const RunComparison& run : runs)
     for (const SchemeComparison& scheme : run.schemes) {
-      const double a = scheme.a.rate(), b = scheme.b.rate();
+      const double a = rate_of(scheme.a), b = rate_of(scheme.b);
       grid.rows.push_back({run.name, scheme.scheme, std::to_string(scheme.frames.size()), rate_text(a),
                            rate_text(b), percent(relative_change(a, b)), std::to_string(scheme.better),
                            std::to_string(scheme.worse)});
@@ -116,7 +121,7 @@ TextGrid frame_grid(const std::vector<RunComparison>& runs, bool all) {
 
 std::string sizes_text(const SchemeStatistics& a, const SchemeStatistics& b) {
   return fmt::format(",{},{},{},{},{},{},{}\n", a.raw_bits, b.raw_bits, a.moved_bits(), b.moved_bits(),
-                     exact(a.rate()), exact(b.rate()), exact(relative_change(a.rate(), b.rate())));
+                     exact(rate_of(a)), exact(rate_of(b)), exact(relative_change(rate_of(a), rate_of(b))));
 }
 
 std::string csv_text(const std::vector<RunComparison>& runs, bool per_frame) {
