@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "command_line.h"
-#include "tilepress/dram_presets.h"
+#include "dram_text.h"
 #include "tilepress/scheme.h"
 #include "verb.h"
 
@@ -69,27 +69,43 @@ void print_text() {
 }
 
 void print_presets() {
-  std::printf("\nDRAM presets (--dram):\n");
-  for (const DramPreset& preset : kDramPresets) {
-    std::printf("  %-9s burst %u bits", preset.name.data(), preset.burst_bits);
-    if (preset.width_bits != 0) std::printf(", %u wires, %u MT/s", preset.width_bits, preset.transfers_mt_s);
-    std::printf("; %s\n", preset.source.data());
-  }
+  std::printf("DRAM presets (--dram):\n");
+  for (const DramPreset& preset : kDramPresets)
+    std::printf("  %-9s %s\n", preset.name.data(), dram_text(preset).c_str());
+}
+
+/// A width or rate that the source does not state is null.
+void print_presets_json() {
+  const auto known = [](uint32_t number) {
+    return number != 0 ? nlohmann::ordered_json(number) : nlohmann::ordered_json(nullptr);
+  };
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const DramPreset& preset : kDramPresets)
+    list.push_back({{"name", preset.name},
+                    {"burst_bits", preset.burst_bits},
+                    {"width_bits", known(preset.width_bits)},
+                    {"transfers_mt_s", known(preset.transfers_mt_s)},
+                    {"source", preset.source}});
+  std::printf("%s\n", list.dump(2).c_str());
 }
 
 }  // namespace
 
 int verb_schemes(int argc, char** argv) {
   CLI::App app("Lists the schemes, their sources and their keys.");
-  bool json = false;
+  bool json = false, dram = false;
   app.add_flag("--json", json, "Print JSON");
+  app.add_flag("--dram", dram, "Print the DRAM presets instead: burst, width, data rate and source");
   if (auto status = parse_command_line(app, argc, argv)) return *status;
   if (json) {
-    print_json();
-  } else {
-    print_text();
-    print_presets();
+    dram ? print_presets_json() : print_json();
+    return kExitDone;
   }
+  if (!dram) {
+    print_text();
+    std::printf("\n");
+  }
+  print_presets();
   return kExitDone;
 }
 

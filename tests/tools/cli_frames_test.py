@@ -70,6 +70,14 @@ class Command(CliCase):
         self.assertEqual(keys["red"], [])
         self.assertIn("sizes", keys["ras"])
 
+    def test_schemes_lists_dram_presets(self):
+        presets = json.loads(self.run_command("schemes", "--dram", "--json").stdout)
+        self.assertEqual([(preset["name"], preset["burst_bits"], preset["width_bits"], preset["transfers_mt_s"]) for preset in presets],
+                         [("paper", 128, None, None), ("lpddr3", 256, 32, 1600), ("lpddr4", 256, 16, 3200), ("lpddr5", 256, 16, 6400)])
+        self.assertTrue(all(preset["source"] for preset in presets))
+        text = self.run_command("schemes", "--dram").stdout.decode()
+        self.assertRegex(text, r"\ADRAM presets \(--dram\):\n  paper +burst 128 bits; .*\n  lpddr3 +burst 256 bits, 32 wires, 1600 MT/s; JEDEC")
+
 
 class Rows(CliCase):
     def test_a_sequence_gives_a_row_per_frame_and_scheme(self):

@@ -107,6 +107,9 @@ class Doctor(CliCase):
         tried = [finding for finding in findings if finding["what"] == "capture"]
         self.assertEqual([finding["found"] for finding in tried], [True, True], tried)
         self.assertTrue(tried[0]["detail"].startswith("preloaded: 3 frames"), tried)
+        dram = {finding["what"]: finding["detail"] for finding in findings if finding["what"].startswith("DRAM ")}
+        self.assertEqual(list(dram), ["DRAM paper", "DRAM lpddr3", "DRAM lpddr4", "DRAM lpddr5"])
+        self.assertTrue(dram["DRAM lpddr4"].startswith("burst 256 bits, 16 wires, 3200 MT/s; "), dram)
         self.assertRegex([finding["detail"] for finding in findings if finding["what"] == "Mesa"][0], r"^[0-9.]+")
 
 

@@ -16,6 +16,7 @@
 #include "capture/shim_path.h"
 #include "capture/shim_self_test.h"
 #include "command_line.h"
+#include "dram_text.h"
 #include "tilepress/program_search.h"
 #include "verb.h"
 
@@ -140,6 +141,8 @@ std::vector<Finding> examine() {
     const auto path = find_program(name);
     findings.push_back({name, path.has_value(), false, path ? *path + ", " + purpose : purpose, package});
   }
+  for (const DramPreset& preset : kDramPresets)
+    findings.push_back({"DRAM " + std::string(preset.name), true, false, dram_text(preset), ""});
   return findings;
 }
 
