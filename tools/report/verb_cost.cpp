@@ -6,6 +6,7 @@
 #include "command_line.h"
 #include "common_options.h"
 #include "tilepress/cost_model.h"
+#include "tilepress/scheme.h"
 #include "verb.h"
 
 namespace tilepress {
@@ -32,6 +33,22 @@ double bytes_of(uint64_t bits) {
   return static_cast<double>(bits) / 8;
 }
 
+/// The names of the schemes with or without DCP's structures.
+std::string scheme_names_by(bool has_structures) {
+  std::string out;
+  for (const SchemeInfo& scheme : scheme_registry())
+    if (scheme.has_dcp_structures == has_structures) out.append(out.empty() ? "" : ", ").append(scheme.name);
+  return out;
+}
+
+nlohmann::ordered_json hardware_json() {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const SchemeInfo& scheme : scheme_registry())
+    list.push_back({{"name", scheme.name},
+                    {"hardware", scheme.has_dcp_structures ? "FVC, CCD and rCCD" : "not known"}});
+  return list;
+}
+
 void print_json(const CostOptions& options) {
   const uint64_t pixels = uint64_t{options.load.width} * options.load.height;
   const BandwidthCheck check = check_bandwidth(options.load, options.sample, options.constants);
@@ -56,7 +73,8 @@ void print_json(const CostOptions& options) {
       {"bandwidth_suffices", check.suffices()},
       {"raw_bytes_per_s", options.load.raw_bytes_per_s()},
       {"raw_power_mw", dram_power_mw(options.load.raw_bytes_per_s(), options.constants)},
-      {"rates", rates}};
+      {"rates", rates},
+      {"schemes", hardware_json()}};
   std::printf("%s\n", document.dump(2).c_str());
 }
 
@@ -93,6 +111,8 @@ void print_text(const CostOptions& options) {
   for (const double rate : options.rates)
     std::printf("  rate %7.4g %9.2f MB/s %9.2f mW, saves %.1f %%\n", rate, raw / rate / 1e6,
                 compressed_power_mw(raw, rate, constants), 100 * energy_saving(rate, constants));
+  std::printf("hardware by scheme\n  %s: the structures above; the RAS part of hdcp is not known\n  %s: not known\n",
+              scheme_names_by(true).c_str(), scheme_names_by(false).c_str());
   std::printf(
       "The paper prints 199.6 mW of dynamic power, and 629.4 mW including 429.8 mW of static power.\n"
       "199.6 mW is its own display: 720x1280 RGBA8 written and read 60 times a second, 442.37 MB/s x 451.2 pJ/B.\n");

@@ -102,7 +102,10 @@ def check_cost():
     assert document["bandwidth_suffices"]
     assert not json.loads(run("cost", "--size", "16384x16384", "--json").stdout)["bandwidth_suffices"]
     assert json.loads(run("cost", "--fvc", "128", "--json").stdout)["area_is_extrapolated"]
+    hardware = {scheme["name"]: scheme["hardware"] for scheme in json.loads(run("cost", "--json").stdout)["schemes"]}
+    assert hardware["vdcp"] == "FVC, CCD and rCCD" and hardware["intel11"] == "not known", hardware
     text = run("cost", "--rate", "2.9").stdout.decode()
+    assert "amddcc: not known\n" in text, text
     assert "saves 64.4 %" in text and "199.6 mW is" in text and "swapped" not in text and "264 bytes" in text, text
     run("cost", "--fvc", "3", status=2)
     run("cost", "--rate", "0", status=2)
