@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Proves that the two commands of the README work where nothing is installed: makes a minimal Debian 12 with debootstrap, copies the
 # committed tree in, and runs tools/quickstart (twice) and tools/check there. Root only; some 3 GB of disk and half an hour.
-# Usage: tests/prove_bare_machine.sh [quickstart|check]...    (both without arguments)
+# `corpus` records and verifies a workload of each category; it needs quickstart before it.
+# Usage: tests/prove_bare_machine.sh [quickstart|check|corpus]...    (the first two without arguments)
 # TILEPRESS_CHROOT_TARBALL=FILE keeps the base system between calls.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -54,6 +55,10 @@ for part in "${parts[@]}"; do
   case $part in
     quickstart) prove tools/quickstart; prove tools/quickstart ;;
     check) prove tools/check ;;
+    corpus)
+      prove build/release/tools/tilepress corpus record --install -o build/corpus gnome-calculator pentobi kubrick
+      prove build/release/tools/tilepress corpus verify -o build/corpus
+      ;;
     *) echo "prove_bare_machine: unknown part '$part'" >&2; exit 2 ;;
   esac
 done

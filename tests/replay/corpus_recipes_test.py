@@ -3,6 +3,7 @@
 
 Usage: corpus_recipes_test.py TILEPRESS CORPUS_FOLDER"""
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -16,6 +17,7 @@ sys.dont_write_bytecode = True
 import devtools  # noqa: E402
 import input_events  # noqa: E402
 import recipe  # noqa: E402
+import results_values  # noqa: E402
 import trimming  # noqa: E402
 from corpus_messages import Fault  # noqa: E402
 from recording import Present  # noqa: E402
@@ -186,6 +188,21 @@ class Regions(unittest.TestCase):
 
     def test_calls_are_left_out(self):
         self.assertEqual(trimming.call_set(9, [0, 3, 4]), "1-2,5-9")
+
+
+class Results(unittest.TestCase):
+    def test_fill_every_place_of_the_text(self):
+        places = re.findall(r"\{\{([^{}]+)\}\}", (CORPUS / "results_text.md").read_text(encoding="utf-8"))
+        self.assertGreater(len(places), 50)
+        for place in places:
+            kind, _, name = place.partition(":")
+            function = f"table_{name}" if kind == "table" else f"value_{place.split()[0]}"
+            if kind != "figure":
+                self.assertTrue(hasattr(results_values.Values, function.replace("-", "_")), place)
+        page = (CORPUS / "RESULTS.md").read_text(encoding="utf-8")
+        self.assertNotIn("{{", page)
+        for drawing in re.findall(r"\]\((results/[^)]*)\)", page):
+            self.assertTrue((CORPUS / drawing).is_file(), drawing)
 
 
 if __name__ == "__main__":

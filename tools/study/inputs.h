@@ -31,10 +31,12 @@ struct FoundWorkloads {
   std::vector<Error> faults;  ///< inputs that give no workload; the path first
 };
 
-/// Takes traces, manifests (.toml; .yml and .yaml of Mesa, with traces in `trace_folder`), frame caches, movies, images, finished runs, folders of all these, and
-/// patterns of paths. Images of one folder are one workload, in the order given or by name. The content of a
-/// file decides what it is. Equal names get "-2", "-3", … in the order of the inputs.
-FoundWorkloads find_workloads(const std::vector<std::string>& inputs, const std::string& trace_folder = "");
+/// Takes traces, manifests (.toml; .yml and .yaml of Mesa, with traces in `trace_folder`), frame caches, movies,
+/// images, finished runs, folders of all these, and patterns of paths. Images of one folder are one workload, in
+/// the order given or by name. The content of a file decides what it is. Equal names get "-2", "-3", … in the
+/// order of the inputs.
+FoundWorkloads find_workloads(const std::vector<std::string>& inputs,
+                              const std::string& trace_folder = "");
 
 /// Puts each workload into a category: that of the first rule "PATTERN=NAME" that matches its name, else its
 /// own, else that of the first category of the study that names it, else "other". Adds categories that the
