@@ -14,6 +14,7 @@ namespace {
 
 constexpr size_t kColors = 10;
 constexpr size_t kShapes = 7;
+constexpr size_t kDashes = 3;
 constexpr int kDotRowHeight = 24;
 constexpr int kBarHeight = 16;
 constexpr int kBarMargin = 4;
@@ -53,6 +54,24 @@ std::string row_marks(const ChartRow& row, const AxisScale& axis, RowShape shape
     if (shape == RowShape::kBars) y += kBarHeight;
   }
   return out;
+}
+
+std::string grey_lines(const ChartRow& row, const AxisScale& axis, int height) {
+  std::string out;
+  for (const ChartLine& line : row.lines)
+    if (axis.holds(line.value))
+      out += fmt::format(
+          "<line class=\"bound d{0}\" x1=\"{1:.2f}%\" x2=\"{1:.2f}%\" y1=\"0\" y2=\"{2}\"><title>{3}</title></line>",
+          line.dash_index % kDashes, axis.percent(line.value), height, escape_html(line.title));
+  return out;
+}
+
+std::string key_mark(const KeyEntry& entry) {
+  if (entry.is_line)
+    return fmt::format("<line class=\"bound d{}\" x1=\"0\" x2=\"0\" y1=\"-7\" y2=\"7\"/>",
+                       entry.color_index % kDashes);
+  return fmt::format("<use href=\"#m{}\" class=\"m c{}\"/>", entry.color_index % kShapes,
+                     entry.color_index % kColors);
 }
 
 std::string axis_row(const AxisScale& axis) {
@@ -122,10 +141,8 @@ std::string chart_key(const std::vector<KeyEntry>& entries) {
     if (grouped && entry.group != group)
       out += fmt::format("<li class=\"group\">{}:</li>", escape_html(entry.group));
     group = entry.group;
-    out += fmt::format(
-        "<li><svg aria-hidden=\"true\" viewBox=\"-7 -7 14 14\"><use href=\"#m{}\" class=\"m "
-        "c{}\"/></svg>{}</li>",
-        entry.color_index % kShapes, entry.color_index % kColors, escape_html(entry.label));
+    out += fmt::format("<li><svg aria-hidden=\"true\" viewBox=\"-7 -7 14 14\">{}</svg>{}</li>", key_mark(entry),
+                       escape_html(entry.label));
   }
   return out + "</ul>\n";
 }
@@ -143,7 +160,7 @@ std::string row_chart(const std::vector<ChartRow>& rows, const AxisScale& axis, 
                            : kDotRowHeight;
     out += fmt::format("<div class=\"label\" title=\"{0}\">{0}</div>", escape_html(row.label));
     out += fmt::format("<svg class=\"plot\" height=\"{}\">{}", height, grid_lines(axis, height));
-    out += row_marks(row, axis, shape, height);
+    out += grey_lines(row, axis, height) + row_marks(row, axis, shape, height);
     if (shape == RowShape::kBars) {
       int y = kBarMargin;
       for (const ChartMark& mark : row.marks) {

@@ -27,6 +27,7 @@ class AxisScale {
   /// A linear axis from 0 to `top`, ticks every `step`.
   static AxisScale linear(double top, double step);
 
+  bool holds(double value) const { return value >= low_ && value <= high_; }
   /// Position of `value` along the axis, 0..100 percent, clamped.
   double percent(double value) const;
   const std::vector<double>& ticks() const { return ticks_; }
@@ -46,16 +47,25 @@ struct ChartMark {
   std::string title;       ///< what a pointer sees
 };
 
+/// A thin grey line through a row. Rows with equal lines show one line from top to bottom.
+struct ChartLine {
+  double value = 0;
+  size_t dash_index = 0;  ///< solid, dotted or dashed
+  std::string title;      ///< what a pointer sees
+};
+
 struct ChartRow {
   std::string label;
   std::string group;  ///< a new heading is written where this changes
   std::vector<ChartMark> marks;
+  std::vector<ChartLine> lines{};  ///< a line beyond the axis is left out
 };
 
 struct KeyEntry {
   std::string label;
   size_t color_index = 0;
   std::string group{};  ///< named before its first entry, if the entries have several
+  bool is_line = false;  ///< color_index is the dash of a ChartLine
 };
 
 enum class RowShape { kDots, kBars, kStack };

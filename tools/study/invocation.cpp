@@ -22,6 +22,7 @@ nlohmann::ordered_json to_json(const StudyOptions& options) {
   json["categories"] = options.categories;
   for (const char* name : kRunOptions) json["options"][name] = find_run_option(name)->text.print(options.run);
   json["chunk"] = options.chunk;
+  json["bounds"] = options.bounds;
   json["cache"] = options.render.cache_folder;
   json["cache_bytes"] = options.render.size_limit_bytes;
   json["retracer"] = static_cast<int>(options.render.retracer);
@@ -40,6 +41,7 @@ StudyOptions from_json(const nlohmann::json& json) {
     if (!text.empty() && !set_run_option(options.run, name, text)) continue;  // of another version
   }
   json.at("chunk").get_to(options.chunk);
+  options.bounds = json.value("bounds", false);
   json.at("cache").get_to(options.render.cache_folder);
   json.at("cache_bytes").get_to(options.render.size_limit_bytes);
   options.render.retracer = static_cast<RetracerChoice>(json.at("retracer").get<int>());

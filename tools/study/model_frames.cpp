@@ -9,19 +9,15 @@
 #include "tilepress/surface_engine.h"
 
 namespace tilepress {
-namespace {
 
-/// Appends the row of each scheme to the text of that scheme.
-void append_rows(const FrameStatistics& frame, const std::vector<SchemeSpec>& specs, ModelRows& rows) {
-  append_frames_row(frame, rows.frames);
+void append_texts_of_schemes(const FrameStatistics& frame, const std::vector<std::string>& names,
+                             std::vector<std::string>& texts) {
   FrameStatistics one = frame;
-  for (size_t i = 0; i < specs.size(); ++i) {
+  for (size_t i = 0; i < names.size(); ++i) {
     one.schemes.assign(1, frame.schemes[i]);
-    append_schemes_rows(one, {specs[i].text}, rows.schemes[i]);
+    append_schemes_rows(one, {names[i]}, texts[i]);
   }
 }
-
-}  // namespace
 
 Result<std::optional<ModelRows>> model_frames(FrameFeed& feed, const RunOptions& options, bool with_colors,
                                               const std::atomic<int>& stop,
@@ -29,6 +25,8 @@ Result<std::optional<ModelRows>> model_frames(FrameFeed& feed, const RunOptions&
   ModelRows rows;
   rows.schemes.assign(options.schemes.size(), schemes_csv_header());
   rows.frames = frames_csv_header();
+  std::vector<std::string> names;
+  for (const SchemeSpec& spec : options.schemes) names.push_back(spec.text);
   ColorShares colors;
   std::map<uint32_t, SurfaceEngine> engines;
   FrameStatistics statistics;
@@ -50,7 +48,8 @@ Result<std::optional<ModelRows>> model_frames(FrameFeed& feed, const RunOptions&
     statistics.time_ns = frame.time_ns;
     statistics.readback_ns = frame.readback_ns;
     engine->second.process(frame.view, statistics);
-    append_rows(statistics, options.schemes, rows);
+    append_frames_row(statistics, rows.frames);
+    append_texts_of_schemes(statistics, names, rows.schemes);
     if (with_colors && !statistics.warmup) colors.add(frame.view);
     ++rows.frame_count;
     ++frames_done;

@@ -8,6 +8,7 @@
 
 #include "study/frame_feed.h"
 #include "tilepress/run_options.h"
+#include "tilepress/statistics.h"
 
 namespace tilepress {
 
@@ -19,6 +20,10 @@ struct ModelRows {
   std::vector<std::string>
       skipped;  ///< a line per scheme and surface whose format the scheme does not support
 };
+
+/// Appends the row of frame.schemes[i], under names[i], to texts[i].
+void append_texts_of_schemes(const FrameStatistics& frame, const std::vector<std::string>& names,
+                             std::vector<std::string>& texts);
 
 /// Models the frames that `options` select with `options.schemes`. `with_colors` fills `colors`. Adds to
 /// `frames_done` after each frame. Returns nothing once `stop` is not 0.

@@ -37,6 +37,14 @@ double model_ns_per_pixel(const std::vector<SchemeSpec>& configurations, const M
   return static_cast<double>(sum_ns) / (kFrames - 1) / static_cast<double>(pixels.size());
 }
 
+/// Results that a workload has when its tasks are done.
+size_t all_results(const StudyPlan& plan, size_t workload) {
+  size_t all = 0;
+  for (const StudyTask& task : plan.tasks)
+    if (task.workload == workload) all += result_count(task);
+  return all;
+}
+
 /// Results of a workload that the folder has.
 size_t stored_results(const StudyPlan& plan, size_t workload, const StudyOptions& options) {
   const auto record = load_workload_record(options.folder, plan.workloads[workload].name);
@@ -44,7 +52,7 @@ size_t stored_results(const StudyPlan& plan, size_t workload, const StudyOptions
   size_t stored = 0;
   for (const StudyTask& task : plan.tasks)
     if (task.workload == workload)
-      stored += task.configurations.size() - missing_configurations(plan, task, *record, options).size();
+      stored += result_count(task) - missing_results(plan, task, *record, options);
   return stored;
 }
 
@@ -67,15 +75,14 @@ std::string plan_text(const StudyPlan& plan, const StudyOptions& options) {
   for (size_t i = 0; i < plan.workloads.size(); ++i) {
     const Workload& workload = plan.workloads[i];
     const WorkloadSize size = size_of_workload(workload, options.render);
-    const size_t stored = stored_results(plan, i, options);
+    const size_t stored = stored_results(plan, i, options), all = all_results(plan, i);
     const auto own_tasks = static_cast<uint64_t>(std::ranges::count(plan.tasks, i, &StudyTask::workload));
     out += fmt::format("{:<{}}  {:<8}  {:<11}  {:>8}  {:>5}  {:>4}/{:<4}  {}\n", workload.name, width,
                        workload.category, name_of(workload.kind), size.frames > 0 ? std::to_string(size.frames) : "?",
-                       own_tasks, stored, configurations, size.note);
+                       own_tasks, stored, all, size.note);
     frames += size.frames;
     tasks += own_tasks;
-    model_pixels += static_cast<double>(size.pixels) * static_cast<double>(configurations - std::min(stored, configurations)) /
-                    static_cast<double>(configurations);
+    model_pixels += static_cast<double>(size.pixels) * static_cast<double>(all - stored) / static_cast<double>(all);
     if (size.to_render) render_pixels += static_cast<double>(size.pixels);
   }
   const double model_s =

@@ -52,13 +52,19 @@ std::string ResultStore::result_path(const std::string& workload, const std::str
          result_key(frames_digest, spec).substr(0, kKeyDigits) + ".csv";
 }
 
-std::string ResultStore::metrics_key(const std::string& frames_digest) const {
-  RunOptions options;  // the metrics depend on no scheme, tile or burst
+std::string ResultStore::frames_key(const std::string& frames_digest, const std::string& further) const {
+  RunOptions options;  // no scheme, tile or burst
   options.schemes.clear();
   options.frames = options_.frames;
   options.every = options_.every;
-  return digest_of(std::string(kResultsFormat) + "\n" + frames_digest + "\nmetrics " + rows_fingerprint(options))
+  return digest_of(std::string(kResultsFormat) + "\n" + frames_digest + "\n" + further + rows_fingerprint(options))
       .substr(0, kKeyDigits);
+}
+
+std::string ResultStore::bound_path(const std::string& workload, const std::string& frames_digest,
+                                    const std::string& bound) const {
+  const std::string further = bound + " burst=" + std::to_string(options_.model.burst_bits) + " ";
+  return folder_of(workload) + bound + "-" + frames_key(frames_digest, further) + ".csv";
 }
 
 std::string ResultStore::frames_path(const std::string& workload, const std::string& frames_digest) const {

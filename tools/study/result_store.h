@@ -18,13 +18,18 @@ class ResultStore {
   /// The rows of schemes.csv of one configuration.
   std::string result_path(const std::string& workload, const std::string& frames_digest,
                           const SchemeSpec& spec) const;
+  /// The rows of a bound, in the columns of schemes.csv.
+  std::string bound_path(const std::string& workload, const std::string& frames_digest,
+                         const std::string& bound) const;
   /// The rows of frames.csv.
   std::string frames_path(const std::string& workload, const std::string& frames_digest) const;
   /// The share of pixels that the most frequent colours cover.
   std::string colors_path(const std::string& workload, const std::string& frames_digest) const;
 
  private:
-  std::string metrics_key(const std::string& frames_digest) const;
+  /// A key for rows that depend on the frames, which of them are modelled, and `further`.
+  std::string frames_key(const std::string& frames_digest, const std::string& further) const;
+  std::string metrics_key(const std::string& frames_digest) const { return frames_key(frames_digest, "metrics "); }
   std::string folder_of(const std::string& workload) const { return folder_ + "/results/" + workload + "/"; }
   std::string folder_;
   RunOptions options_;

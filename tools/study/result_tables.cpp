@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <span>
 
 #include "report/run_summary.h"
+#include "study/bounds/bound_coders.h"
 #include "study/configuration_columns.h"
 #include "tilepress/cost_model.h"
 #include "tilepress/csv_table.h"
+#include "tilepress/dram_presets.h"
 #include "tilepress/scheme.h"
 
 namespace tilepress {
@@ -78,6 +81,8 @@ constexpr CsvColumn<Row> kColumns[] = {
     TILEPRESS_CSV_FIGURE("rate_payload_min", *std::ranges::min_element(row.rates_payload)),
     TILEPRESS_CSV_FIGURE("rate_payload_median", median(row.rates_payload)),
     TILEPRESS_CSV_FIGURE("rate_payload_max", *std::ranges::max_element(row.rates_payload)),
+};
+constexpr CsvColumn<Row> kCoverageColumns[] = {
     {"fvc_coverage_mean",
      [](const Row& row, std::string& out) { append_optional(out, row.coverage.mean()); }},
     {"fvc_relative_coverage_mean",
@@ -100,21 +105,70 @@ void append_result(const Workload& workload, const SchemeSpec& spec, const Resul
   out += '\n';
 }
 
-/// Empty `category`: all workloads.
+/// Over the workloads that have result i in `list_of(results)`. Empty `category`: all workloads.
+template <class ListOf>
+ConfigurationValues values_of(const StudyPlan& plan, const std::vector<WorkloadResults>& results,
+                              const std::string& category, const ListOf& list_of, size_t i) {
+  ConfigurationValues values;
+  for (size_t workload = 0; workload < results.size(); ++workload) {
+    const std::vector<std::optional<ResultSums>>& sums = std::invoke(list_of, results[workload]);
+    if (i >= sums.size() || !sums[i] || sums[i]->frames == 0) continue;
+    if (category.empty() || plan.workloads[workload].category == category) values.add(*sums[i]);
+  }
+  return values;
+}
+
+std::string category_cell(const std::string& category) {
+  return csv_field(category.empty() ? "all" : category) + ",";
+}
+
 void append_means(const StudyPlan& plan, const std::vector<WorkloadResults>& results, const std::string& category,
                   std::string& out) {
   for (size_t i = 0; i < plan.study.configurations.size(); ++i) {
-    ConfigurationValues values;
-    for (size_t workload = 0; workload < results.size(); ++workload) {
-      const auto& sums = results[workload].sums[i];
-      if (!sums || sums->frames == 0) continue;
-      if (category.empty() || plan.workloads[workload].category == category) values.add(*sums);
-    }
+    const ConfigurationValues values = values_of(plan, results, category, &WorkloadResults::sums, i);
     if (values.rates.empty()) continue;
-    append_csv(out, category.empty() ? "all" : category);
-    append_configuration(plan.study.configurations[i], out += ',');
+    append_configuration(plan.study.configurations[i], out += category_cell(category));
+    append_csv_fields(means_table::kColumns, values, out += ',');
+    append_csv_row(means_table::kCoverageColumns, values, out += ',');
+  }
+}
+
+void append_bound_means(const StudyPlan& plan, const std::vector<WorkloadResults>& results,
+                        const std::string& category, std::string& out) {
+  for (size_t i = 0; i < bounds().size(); ++i) {
+    const ConfigurationValues values = values_of(plan, results, category, &WorkloadResults::bounds, i);
+    if (values.rates.empty()) continue;
+    append_csv(out += category_cell(category), bounds()[i].name);
     append_csv_row(means_table::kColumns, values, out += ',');
   }
+}
+
+/// The names of the presets with this burst.
+std::string presets_with(uint32_t burst_bits) {
+  std::string out;
+  for (const DramPreset& preset : kDramPresets)
+    if (preset.burst_bits == burst_bits) out.append(out.empty() ? "" : " ").append(preset.name);
+  return out;
+}
+
+void append_sensitivity(const StudyPlan& plan, const std::vector<WorkloadResults>& results,
+                        const std::string& category, std::string& out) {
+  static const std::vector<std::optional<ResultSums>> kNone;
+  for (size_t i = 0; i < plan.study.configurations.size(); ++i)
+    for (const uint32_t burst : plan.study.bursts) {
+      const auto at_burst = [&](const WorkloadResults& of) -> const std::vector<std::optional<ResultSums>>& {
+        const auto further = of.at_bursts.find(burst);
+        if (further != of.at_bursts.end()) return further->second;
+        const bool is_main = i < of.sums.size() && of.sums[i] && of.sums[i]->total.burst_bits == burst;
+        return is_main ? of.sums : kNone;
+      };
+      const ConfigurationValues values = values_of(plan, results, category, at_burst, i);
+      if (values.rates.empty()) continue;
+      append_configuration(plan.study.configurations[i], out += category_cell(category));
+      append_csv(out += ',', burst);
+      append_csv(out += ',', presets_with(burst));
+      append_csv_row(means_table::kColumns, values, out += ',');
+    }
 }
 
 }  // namespace
@@ -135,9 +189,38 @@ std::string results_csv(const StudyPlan& plan, const std::vector<WorkloadResults
 std::string means_csv(const StudyPlan& plan, const std::vector<WorkloadResults>& results) {
   std::string out = "category," + configuration_header() + ",";
   append_csv_names(means_table::kColumns, out);
+  append_csv_names(means_table::kCoverageColumns, out += ',');
   out += '\n';
   for (const StudyCategory& category : plan.study.categories) append_means(plan, results, category.name, out);
   append_means(plan, results, "", out);
+  return out;
+}
+
+std::string bounds_csv(const StudyPlan& plan, const std::vector<WorkloadResults>& results) {
+  std::string out = "workload,category,bound," + csv_header(sums_csv::kColumns);
+  for (size_t workload = 0; workload < results.size(); ++workload)
+    for (size_t i = 0; i < results[workload].bounds.size(); ++i) {
+      const auto& sums = results[workload].bounds[i];
+      if (!sums || sums->frames == 0) continue;
+      append_csv(out, plan.workloads[workload].name);
+      append_csv(out += ',', plan.workloads[workload].category);
+      append_csv(out += ',', bounds()[i].name);
+      append_csv_row(sums_csv::kColumns, *sums, out += ',');
+    }
+  return out;
+}
+
+std::string bound_means_csv(const StudyPlan& plan, const std::vector<WorkloadResults>& results) {
+  std::string out = "category,bound," + csv_header(means_table::kColumns);
+  for (const StudyCategory& category : plan.study.categories) append_bound_means(plan, results, category.name, out);
+  append_bound_means(plan, results, "", out);
+  return out;
+}
+
+std::string sensitivity_csv(const StudyPlan& plan, const std::vector<WorkloadResults>& results) {
+  std::string out = "category," + configuration_header() + ",burst_bits,dram," + csv_header(means_table::kColumns);
+  for (const StudyCategory& category : plan.study.categories) append_sensitivity(plan, results, category.name, out);
+  append_sensitivity(plan, results, "", out);
   return out;
 }
 

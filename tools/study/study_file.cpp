@@ -8,6 +8,7 @@
 #include "study/configuration.h"
 #include "study/study_assets.h"
 #include "study/text_file.h"
+#include "tilepress/run_options.h"
 #include "toml_text.h"
 
 namespace tilepress {
@@ -85,12 +86,13 @@ Result<void> for_each_table(const toml::table& root, std::string_view name, cons
 class StudyParser {
  public:
   Result<StudyFile> parse(const toml::table& root) {
-    std::vector<std::string> listed;
+    std::vector<std::string> listed, bursts;
     const TableKeys keys{{{"name", &study_.name}, {"title", &study_.title}, {"baseline", &study_.baseline}},
-                         {{"configurations", &listed}, {"inputs", &study_.inputs}},
+                         {{"configurations", &listed}, {"inputs", &study_.inputs}, {"bursts", &bursts}},
                          {"category", "axis", "figure"}};
     Result<void> done = take_table(root, keys);
     if (done) done = take_name(root);
+    for (size_t i = 0; done && i < bursts.size(); ++i) done = take_burst(*root.get("bursts"), bursts[i]);
     for (size_t i = 0; done && i < listed.size(); ++i) {
       done = add_configurations(*root.get("configurations"), listed[i]);
     }
@@ -109,6 +111,15 @@ class StudyParser {
   Result<void> take_name(const toml::table& root) {
     if (study_.name.empty()) return at_line(root, "name = \"...\" is missing");
     if (study_.title.empty()) study_.title = study_.name;
+    return {};
+  }
+
+  Result<void> take_burst(const toml::node& where, const std::string& text) {
+    RunOptions options;
+    if (const auto set = set_run_option(options, "burst", text); !set) return at_line(where, set.error().text);
+    if (std::ranges::count(study_.bursts, options.model.burst_bits) > 0)
+      return at_line(where, "the burst " + text + " is there twice");
+    study_.bursts.push_back(options.model.burst_bits);
     return {};
   }
 
@@ -209,6 +220,7 @@ Result<StudyFile> parse_study(std::string_view text) {
 }
 
 std::string built_in_study(std::string_view name) {
+  if (name == "sensitivity") return std::string(kSensitivityStudy);
   return name == "paper" ? std::string(kPaperStudy).append(kPaperFigures) : "";
 }
 

@@ -1,6 +1,7 @@
 // Study file: what a study varies and draws, in TOML.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,7 @@ struct StudyFile {
   std::vector<SchemeSpec> configurations;  ///< distinct: first those that the file lists, then the axes
   std::vector<StudyCategory> categories;
   std::vector<StudyAxis> axes;
+  std::vector<uint32_t> bursts;  ///< bits of DRAM bursts to model all configurations at; empty: that of the call
   std::vector<std::string> inputs;   ///< taken if the command line names none; relative to the file
   std::string figures_json;          ///< the [[figure]] tables as a JSON list
   std::vector<std::string> remarks;  ///< lines for the user: what the study leaves out
@@ -39,7 +41,7 @@ struct StudyFile {
 /// Parses a study. Error: kBadValue, "line N: reason". An axis without values is left out, with a remark.
 Result<StudyFile> parse_study(std::string_view text);
 
-/// Loads the built-in study "paper" or a file. Error: the name first.
+/// Loads the built-in study "paper" or "sensitivity", or a file. Error: the name first.
 Result<StudyFile> load_study(const std::string& name);
 
 /// The built-in study of that name as text; empty if there is none.

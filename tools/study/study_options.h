@@ -25,6 +25,7 @@ struct StudyOptions {
   std::vector<std::string> categories;  ///< rules "PATTERN=NAME"
   RunOptions run;                       ///< tile, burst, frames and every count; the rest is not used
   RenderOptions render;
+  bool bounds = false;  ///< also what general compressors reach
   uint32_t chunk = 42;  ///< configurations of a task, about
   uint32_t jobs = 1;    ///< tasks at a time
   Shard shard;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "counted.h"
+#include "study/bounds/bound_coders.h"
 #include "study/configuration.h"
 #include "tilepress/file_digest.h"
 
@@ -51,10 +53,42 @@ std::vector<StudyTask> plan_tasks(const StudyFile& study, const std::vector<Work
   const auto chunks = chunk_configurations(study.configurations, options.chunk);
   const auto whole = chunk_configurations(study.configurations, study.configurations.size());
   std::vector<StudyTask> tasks;
-  for (size_t workload = 0; workload < workloads.size(); ++workload)
-    for (const auto& chunk : workloads[workload].kind == WorkloadKind::kRun ? whole : chunks)
-      tasks.push_back({task_id(workloads[workload], study, chunk, options.run), workload, chunk});
+  for (size_t workload = 0; workload < workloads.size(); ++workload) {
+    const bool is_run = workloads[workload].kind == WorkloadKind::kRun;
+    for (const auto& chunk : is_run ? whole : chunks)
+      tasks.push_back({task_id(workloads[workload], study, chunk, options.run), workload, chunk, 0});
+    if (is_run) continue;
+    for (const uint32_t burst_bits : further_bursts(study, options))
+      for (const auto& chunk : chunks) {
+        StudyTask task{"", workload, chunk, burst_bits};
+        task.id = task_id(workloads[workload], study, chunk, run_options_of(task, options));
+        tasks.push_back(std::move(task));
+      }
+    if (options.bounds)
+      tasks.push_back({task_id(workloads[workload], study, {}, options.run) + "-bounds", workload, {}, 0});
+  }
   return tasks;
+}
+
+RunOptions run_options_of(const StudyTask& task, const StudyOptions& options) {
+  RunOptions run = options.run;
+  if (task.burst_bits != 0) run.model.burst_bits = task.burst_bits;
+  return run;
+}
+
+std::vector<uint32_t> further_bursts(const StudyFile& study, const StudyOptions& options) {
+  std::vector<uint32_t> bursts = study.bursts;
+  std::erase(bursts, options.run.model.burst_bits);
+  return bursts;
+}
+
+std::string task_content(const StudyTask& task) {
+  const std::string count = counted(result_count(task), task.is_bounds() ? "bound" : "configuration");
+  return task.burst_bits == 0 ? count : count + " at burst " + std::to_string(task.burst_bits);
+}
+
+size_t result_count(const StudyTask& task) {
+  return task.is_bounds() ? bounds().size() : task.configurations.size();
 }
 
 }  // namespace tilepress

@@ -11,19 +11,30 @@
 
 namespace tilepress {
 
-/// A workload and some configurations.
+/// A workload with some configurations, or with the bounds.
 struct StudyTask {
   std::string id;  ///< names files; unique in the study
   size_t workload = 0;
-  std::vector<size_t> configurations;  ///< positions in StudyFile::configurations
+  std::vector<size_t> configurations;  ///< positions in StudyFile::configurations; empty: the bounds
+  uint32_t burst_bits = 0;             ///< a further burst of the study; 0: the burst of the options
+  bool is_bounds() const { return configurations.empty(); }
 };
+/// The options under which a task models: its own burst, if it has one.
+RunOptions run_options_of(const StudyTask& task, const StudyOptions& options);
+/// The bursts of the study that the options do not have.
+std::vector<uint32_t> further_bursts(const StudyFile& study, const StudyOptions& options);
+/// What a task computes: "3 configurations", "5 bounds".
+std::string task_content(const StudyTask& task);
+/// Results of the task: a workload and a configuration, or a workload and a bound.
+size_t result_count(const StudyTask& task);
 
 /// Cuts the configurations into chunks of about `chunk`. Configurations whose keys have equal values share
 /// tables in the model and stay together.
 std::vector<std::vector<size_t>> chunk_configurations(const std::vector<SchemeSpec>& configurations,
                                                       size_t chunk);
 
-/// One task per workload and chunk, workload by workload. A finished run has one task.
+/// One task per workload and chunk, workload by workload; then the same for each further burst, and one for the
+/// bounds if the options have them. A finished run has one task only.
 std::vector<StudyTask> plan_tasks(const StudyFile& study, const std::vector<Workload>& workloads,
                                   const StudyOptions& options);
 

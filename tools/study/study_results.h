@@ -1,6 +1,7 @@
 // Study results: everything that the tables of a study are made from.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ struct WorkloadResults {
   std::vector<FrameStatistics> frames;  ///< without schemes and targets
   std::string colors;                   ///< CSV: colors, pixels_share
   std::vector<std::optional<ResultSums>> sums;  ///< by position in StudyFile::configurations
+  std::map<uint32_t, std::vector<std::optional<ResultSums>>> at_bursts;  ///< `sums` at further_bursts()
+  std::vector<std::optional<ResultSums>> bounds;  ///< by position in bounds(); none without StudyOptions::bounds
 };
 
 /// Loads what the study folder holds for the plan, in the order of its workloads. A result that is not there is

@@ -165,8 +165,9 @@ class StudyWorkers {
     counts_.kept += outcome->kept;
     counts_.elsewhere += outcome->end == TaskEnd::kElsewhere;
     if (outcome->computed > 0)
-      say(MessageLevel::kInfo, fmt::format("{}: {} configurations modelled", plan_.workloads[task.workload].name,
-                                           outcome->computed));
+      say(MessageLevel::kInfo,
+          fmt::format("{}: {} of {} modelled", plan_.workloads[task.workload].name, outcome->computed,
+                      task_content(task)));
   }
 
   const StudyPlan& plan_;

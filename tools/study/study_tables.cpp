@@ -1,12 +1,40 @@
 // Study tables: one text per file.
 #include "study_tables.h"
 
+#include <filesystem>
+
 #include "study/result_tables.h"
 #include "study/study_json.h"
 #include "study/text_file.h"
 #include "study/workload_tables.h"
 
 namespace tilepress {
+namespace {
+
+struct OptionalTable {
+  const char* name;
+  std::string (*make)(const StudyPlan&, const std::vector<WorkloadResults>&);
+  bool wanted;
+};
+
+/// Tables of an earlier call that this one does not want are removed: figures show what the tables hold.
+Result<void> write_optional_tables(const StudyPlan& plan, const StudyOptions& options,
+                                   const std::vector<WorkloadResults>& results) {
+  const OptionalTable tables[] = {{"bounds.csv", bounds_csv, options.bounds},
+                                  {"bound_means.csv", bound_means_csv, options.bounds},
+                                  {"sensitivity.csv", sensitivity_csv, !plan.study.bursts.empty()}};
+  for (const auto& [name, make, wanted] : tables) {
+    const std::string path = options.folder + "/" + name;
+    std::error_code code;
+    if (!wanted)
+      std::filesystem::remove(path, code);
+    else if (const auto stored = store_text_file(path, make(plan, results)); !stored)
+      return stored;
+  }
+  return {};
+}
+
+}  // namespace
 
 Result<void> write_study_tables(const StudyPlan& plan, const StudyOptions& options) {
   const auto results = load_study_results(plan, options);
@@ -22,7 +50,7 @@ Result<void> write_study_tables(const StudyPlan& plan, const StudyOptions& optio
       {"provenance.json", provenance_json(plan, options, *results)}};
   for (const auto& [name, text] : files)
     if (const auto stored = store_text_file(options.folder + "/" + name, text); !stored) return stored;
-  return {};
+  return write_optional_tables(plan, options, *results);
 }
 
 }  // namespace tilepress

@@ -1,10 +1,13 @@
 // Study task: lock, model, store.
 #include "study_task.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
 #include "streams/messages.h"
+#include "study/bounds/bound_coders.h"
+#include "study/bounds/model_bounds.h"
 #include "study/cache/host_name.h"
 #include "study/model_frames.h"
 #include "study/result_store.h"
@@ -26,53 +29,82 @@ struct TaskFiles {
   std::string frames() const { return store.frames_path(workload, digest); }
   std::string colors() const { return store.colors_path(workload, digest); }
   std::string result(const SchemeSpec& spec) const { return store.result_path(workload, digest, spec); }
+  std::string bound(const std::string& name) const { return store.bound_path(workload, digest, name); }
+};
+
+/// The results of a task that are not stored.
+struct MissingWork {
+  std::vector<SchemeSpec> specs;
+  std::vector<std::string> bounds;
+  bool metrics = false;  ///< the first task of a workload also stores the metrics of the frames
+  size_t results() const { return specs.size() + bounds.size(); }
+  bool any() const { return results() > 0 || metrics; }
 };
 
 TaskFiles files_of(const StudyPlan& plan, const StudyTask& task, const WorkloadRecord& record,
                    const StudyOptions& options) {
-  return {ResultStore(options.folder, options.run), plan.workloads[task.workload].name, record.frames_digest};
+  return {ResultStore(options.folder, run_options_of(task, options)), plan.workloads[task.workload].name, record.frames_digest};
 }
 
-Result<void> store_rows(const TaskFiles& files, const std::vector<SchemeSpec>& specs, const ModelRows& rows,
-                        bool with_metrics) {
+MissingWork missing_work(const StudyPlan& plan, const StudyTask& task, const TaskFiles& files) {
+  MissingWork missing;
+  for (const size_t i : task.configurations)
+    if (const SchemeSpec& spec = plan.study.configurations[i]; !is_there(files.result(spec)))
+      missing.specs.push_back(spec);
+  if (task.is_bounds()) {
+    for (const std::string& name : bound_names())
+      if (!is_there(files.bound(name))) missing.bounds.push_back(name);
+  } else if (task.burst_bits == 0) {
+    missing.metrics = task.configurations.front() == 0 && !is_there(files.frames());
+  }
+  return missing;
+}
+
+/// The bounds are computed together, and stored where they are missing.
+Result<void> store_bounds(const TaskFiles& files, const std::vector<std::string>& missing, const ModelRows& rows) {
+  const std::vector<std::string> names = bound_names();
   Result<void> stored;
-  for (size_t i = 0; stored && i < specs.size(); ++i)
-    stored = store_text_file(files.result(specs[i]), rows.schemes[i]);
-  if (stored && with_metrics) stored = store_text_file(files.colors(), rows.colors);
-  if (stored && with_metrics) stored = store_text_file(files.frames(), rows.frames);
+  for (size_t i = 0; stored && i < names.size(); ++i)
+    if (std::ranges::find(missing, names[i]) != missing.end())
+      stored = store_text_file(files.bound(names[i]), rows.schemes[i]);
+  return stored;
+}
+
+Result<void> store_rows(const TaskFiles& files, const MissingWork& work, const ModelRows& rows) {
+  if (!work.bounds.empty()) return store_bounds(files, work.bounds, rows);
+  Result<void> stored;
+  for (size_t i = 0; stored && i < work.specs.size(); ++i)
+    stored = store_text_file(files.result(work.specs[i]), rows.schemes[i]);
+  if (stored && work.metrics) stored = store_text_file(files.colors(), rows.colors);
+  if (stored && work.metrics) stored = store_text_file(files.frames(), rows.frames);
   return stored;
 }
 
 /// Nothing if a signal came.
-Result<std::optional<uint64_t>> model_and_store(const TaskFiles& files, const std::vector<SchemeSpec>& specs,
-                                                bool with_metrics, const OpenFeed& open,
-                                                const StudyOptions& options, const std::atomic<int>& stop,
+Result<std::optional<uint64_t>> model_and_store(const TaskFiles& files, const MissingWork& work,
+                                                const OpenFeed& open, RunOptions run,
+                                                const std::atomic<int>& stop,
                                                 std::atomic<uint64_t>& frames_done) {
   auto feed = open();
   if (!feed) return feed.error();
-  RunOptions run = options.run;
-  run.schemes = specs;
-  const auto rows = model_frames(**feed, run, with_metrics, stop, frames_done);
+  run.schemes = work.specs;
+  const auto rows = work.bounds.empty() ? model_frames(**feed, run, work.metrics, stop, frames_done)
+                                        : model_bounds(**feed, run, stop, frames_done);
   if (!rows) return rows.error();
   if (!*rows) return std::optional<uint64_t>();
   if ((*rows)->frame_count == 0)
     return Error{ErrorKind::kFile, files.workload + ": --frames and --every select none of its frames"};
   for (const std::string& line : (*rows)->skipped) say(MessageLevel::kWarning, files.workload + ": " + line);
-  const auto stored = store_rows(files, specs, **rows, with_metrics);
+  const auto stored = store_rows(files, work, **rows);
   if (!stored) return stored.error();
   return std::optional((*rows)->frame_count);
 }
 
 }  // namespace
 
-std::vector<SchemeSpec> missing_configurations(const StudyPlan& plan, const StudyTask& task,
-                                               const WorkloadRecord& record, const StudyOptions& options) {
-  const TaskFiles files = files_of(plan, task, record, options);
-  std::vector<SchemeSpec> missing;
-  for (const size_t i : task.configurations)
-    if (!is_there(files.result(plan.study.configurations[i])))
-      missing.push_back(plan.study.configurations[i]);
-  return missing;
+size_t missing_results(const StudyPlan& plan, const StudyTask& task, const WorkloadRecord& record,
+                       const StudyOptions& options) {
+  return missing_work(plan, task, files_of(plan, task, record, options)).results();
 }
 
 Result<TaskOutcome> run_task(const StudyPlan& plan, const StudyTask& task, const PreparedWorkload& prepared,
@@ -80,23 +112,18 @@ Result<TaskOutcome> run_task(const StudyPlan& plan, const StudyTask& task, const
                              std::atomic<uint64_t>& frames_done) {
   if (!prepared.record.has_frames()) return TaskOutcome{TaskEnd::kNoFrames};
   const TaskFiles files = files_of(plan, task, prepared.record, options);
-  // The first task of a workload also stores the metrics of the frames.
-  const bool first = task.configurations.front() == 0;
   TaskLock lock;
-  const auto missing_now = [&] { return missing_configurations(plan, task, prepared.record, options); };
-  const auto metrics_missing = [&] { return first && !is_there(files.frames()); };
-  TaskOutcome outcome{TaskEnd::kKept, 0, task.configurations.size()};
-  if (!prepared.open || (missing_now().empty() && !metrics_missing())) return outcome;
+  TaskOutcome outcome{TaskEnd::kKept, 0, result_count(task)};
+  if (!prepared.open || !missing_work(plan, task, files).any()) return outcome;
   const auto taken = lock.take(options.folder, task.id);
   if (!taken) return taken.error();
   if (!*taken) return TaskOutcome{TaskEnd::kElsewhere};
-  const std::vector<SchemeSpec> missing = missing_now();
-  const bool with_metrics = metrics_missing();
-  if (missing.empty() && !with_metrics) return outcome;
+  const MissingWork missing = missing_work(plan, task, files);
+  if (!missing.any()) return outcome;
 
   const auto begin = std::chrono::steady_clock::now();
   const auto modelled =
-      model_and_store(files, missing, with_metrics, prepared.open, options, stop, frames_done);
+      model_and_store(files, missing, prepared.open, run_options_of(task, options), stop, frames_done);
   if (modelled && !*modelled) return TaskOutcome{TaskEnd::kInterrupted};
   TaskRecord record{modelled ? "" : modelled.error().text, host_name(), TILEPRESS_VERSION, utc_time(), 0, 0};
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -105,8 +132,8 @@ Result<TaskOutcome> run_task(const StudyPlan& plan, const StudyTask& task, const
   if (!modelled) return modelled.error();
   if (!noted) return noted.error();
   outcome.end = TaskEnd::kComputed;
-  outcome.computed = missing.size();
-  outcome.kept -= missing.size();
+  outcome.computed = missing.results();
+  outcome.kept -= missing.results();
   return outcome;
 }
 

@@ -19,12 +19,12 @@ enum class TaskEnd : uint8_t {
 
 struct TaskOutcome {
   TaskEnd end = TaskEnd::kKept;
-  uint64_t computed = 0, kept = 0;  ///< results of configurations
+  uint64_t computed = 0, kept = 0;  ///< results
 };
 
-/// The configurations of the task whose results are not stored.
-std::vector<SchemeSpec> missing_configurations(const StudyPlan& plan, const StudyTask& task,
-                                               const WorkloadRecord& record, const StudyOptions& options);
+/// How many results of the task are not stored.
+size_t missing_results(const StudyPlan& plan, const StudyTask& task, const WorkloadRecord& record,
+                       const StudyOptions& options);
 
 /// Runs one task and stores its results, each whole or not at all, and its record. Thread-safe. Error: the
 /// frames cannot be read or the results not be written; the record then holds the reason.

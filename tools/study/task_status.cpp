@@ -19,7 +19,7 @@ TaskStatus status_of(const StudyPlan& plan, const StudyTask& task, const StudyOp
   const Workload& workload = plan.workloads[task.workload];
   const auto record = load_workload_record(options.folder, workload.name);
   if (record && !record->has_frames()) return {&task, TaskState::kFailed, record->reason};
-  if (record && (workload.kind == WorkloadKind::kRun || missing_configurations(plan, task, *record, options).empty()))
+  if (record && (workload.kind == WorkloadKind::kRun || missing_results(plan, task, *record, options) == 0))
     return {&task, TaskState::kDone, {}};
   const auto worker = worker_of(options.folder, task.id);
   if (worker && worker->alive) return {&task, TaskState::kRunning, worker->name};
@@ -48,8 +48,7 @@ std::string status_text(const StudyPlan& plan, const std::vector<TaskStatus>& st
     ++counts[static_cast<size_t>(status.state)];
     if (status.state == TaskState::kDone) continue;
     lines += fmt::format("  {:>4}  {:<9}  {}, {}{}\n", i + 1, kStateNames[static_cast<size_t>(status.state)],
-                         plan.workloads[status.task->workload].name,
-                         counted(status.task->configurations.size(), "configuration"),
+                         plan.workloads[status.task->workload].name, task_content(*status.task),
                          status.note.empty() ? "" : ": " + status.note);
   }
   std::string out = counted(statuses.size(), "task") + ":";

@@ -24,8 +24,10 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  tilepress study paper -o out traces/*.trace\n"
     "  tilepress study paper -o out -n traces/                  the plan, without running anything\n"
+    "  tilepress study sensitivity -o out traces/               every scheme at DRAM bursts of 128 and 256 bits\n"
     "  tilepress study --example > mine.toml                    a study file to edit\n"
     "  tilepress study mine.toml -o out --category 'game*=3D' shots/ old-run/\n"
+    "  tilepress study paper -o out --bounds traces/            grey lines: how far from possible schemes are\n"
     "  tilepress study paper -o out --launcher slurm traces/    one array job\n"
     "\n"
     "Inputs: traces, manifests, frame caches, images, movies, finished runs, and folders or quoted patterns of\n"
@@ -49,7 +51,7 @@ constexpr SubCommand kSubCommands[] = {
 void add_study_options(CLI::App& app, VerbOptions& options) {
   StudyOptions& study = options.command.study;
   study.run.output = "tilepress-study";
-  app.add_option("STUDY", study.study, "paper, or a study file");
+  app.add_option("STUDY", study.study, "paper, sensitivity, or a study file");
   app.add_option("INPUT", study.inputs, "Inputs (default: those of the study file)")->type_name("...");
   app.add_option("--manifest", options.manifests, "A further input: list of traces, TOML or Mesa's traces-*.yml")
       ->type_name("FILE");
@@ -61,6 +63,9 @@ void add_study_options(CLI::App& app, VerbOptions& options) {
   app.add_flag("--example", options.example, "Print a commented study file");
   add_category_option(app, study.categories);
   add_frame_options(app, study.run);
+  app.add_flag("--bounds", study.bounds,
+               "Also compute what LZ4, zstd and WebP lossless reach on the same frames: bounds.csv, bound_means.csv "
+               "and grey lines in the figures of rates. Frames without 8-bit channels have no bounds");
   app.add_option("--cache", study.render.cache_folder,
                  "Folder of rendered traces (default: $XDG_CACHE_HOME/tilepress/frames)")
       ->type_name("DIR");
@@ -84,7 +89,7 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
   if (const auto status = parse_command_line(app, argc, argv)) return status;
   StudyOptions& study = options.command.study;
   if (!options.example && study.study.empty())
-    return fail(kExitUsage, "no study given: paper, or a study file (see tilepress study --help)");
+    return fail(kExitUsage, "no study given: paper, sensitivity, or a study file (see tilepress study --help)");
   study.inputs.insert(study.inputs.end(), options.manifests.begin(), options.manifests.end());
   if (!study.trace_folder.empty()) study.trace_folder = absolute_folder(study.trace_folder);
   study.folder = absolute_folder(study.run.output);

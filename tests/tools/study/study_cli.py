@@ -126,6 +126,61 @@ class Results(StudyCase):
             self.assertRegex(result["computed"]["date"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
 
 
+class Bounds(StudyCase):
+    NAMES = ["lz4_block", "zstd_block", "lz4_frame", "zstd_frame", "webp_frame"]
+
+    def test_are_results_like_others(self):
+        self.assertEqual(self.study("-o", "out", "--bounds", "desktop", "map"), (18, 0))
+        rows = self.rows("bounds.csv")
+        self.assertEqual([(row["workload"], row["bound"]) for row in rows],
+                         [(workload, name) for workload in ("desktop", "map") for name in self.NAMES])
+        for row in rows:
+            self.assertEqual((row["frames"], row["csb_bits"]), ("2", "0"))
+            self.assertEqual(int(row["moved_bits"]), int(row["bursts"]) * 128)
+            self.assertAlmostEqual(float(row["rate"]), int(row["raw_bits"]) / int(row["moved_bits"]), 9)
+        rates = {(row["workload"], row["bound"]): float(row["rate"]) for row in rows}
+        self.assertGreater(rates["desktop", "zstd_frame"], rates["desktop", "zstd_block"])
+        means = {(row["category"], row["bound"]): row for row in self.rows("bound_means.csv")}
+        self.assertEqual(list(dict.fromkeys(category for category, _ in means)), ["UI", "other", "all"])
+        for name in self.NAMES:
+            mean = 2 / sum(1 / rates[workload, name] for workload in ("desktop", "map"))
+            self.assertAlmostEqual(float(means["all", name]["rate_hmean"]), mean, 9)
+        self.assertEqual({row["webp_frame"] for row in self.rows("figures/means.csv") if row["category"] == "UI"},
+                         {means["UI", "webp_frame"]["rate_hmean"]})
+        self.assertIn("zstd, each block alone", content(self.path("out/study.html")).decode())
+        # Kept, split, and left out.
+        tables = {name: content(self.path("out/" + name)) for name in ("bounds.csv", "bound_means.csv", "results.csv")}
+        self.assertEqual(self.study("-o", "out", "--bounds", "desktop", "map"), (0, 18))
+        for part in ("1/3", "2/3", "3/3"):
+            self.study("-o", "parts", "--bounds", "--shard", part, "desktop", "map")
+        self.assertEqual(self.run_command("study", "merge", "parts").returncode, 0)
+        for name, text in tables.items():
+            self.assertEqual(content(self.path("parts/" + name)), text)
+        self.assertEqual(self.study("-o", "out", "desktop", "map"), (0, 8))
+        self.assertFalse(os.path.exists(self.path("out/bounds.csv")))
+        self.assertEqual(content(self.path("out/results.csv")), tables["results.csv"])
+
+
+class Bursts(StudyCase):
+    def test_of_a_study_are_modelled_beside_that_of_the_call(self):
+        self.write("small.toml", STUDY.format(values="16").replace("[[category]]", "bursts = [128, 256]\n[[category]]").encode())
+        self.assertEqual(self.study("-o", "out", "desktop", "map"), (16, 0))
+        self.assertEqual(self.study("-o", "out", "desktop", "map"), (0, 16))
+        means = {row["configuration"]: row["rate_hmean"] for row in self.rows("means.csv") if row["category"] == "all"}
+        bursts = {(row["configuration"], row["burst_bits"]): row for row in self.rows("sensitivity.csv") if row["category"] == "all"}
+        self.assertEqual(len(bursts), 8)
+        self.assertEqual(bursts["ras", "256"]["dram"], "lpddr3 lpddr4 lpddr5")
+        for name, rate in means.items():
+            self.assertEqual(bursts[name, "128"]["rate_hmean"], rate)
+        tables = content(self.path("out/sensitivity.csv"))
+        self.assertEqual(self.study("-o", "out", "--burst", "256", "desktop", "map"), (0, 16))
+        self.assertEqual(content(self.path("out/sensitivity.csv")), tables)
+        means = {row["configuration"]: row["rate_hmean"] for row in self.rows("means.csv") if row["category"] == "all"}
+        self.assertEqual(bursts["hdcp", "256"]["rate_hmean"], means["hdcp"])
+        self.assertEqual({row["burst"] for row in self.rows("figures/sensitivity.csv")}, {"128", "256"})
+        self.assertTrue(os.path.exists(self.path("out/figures/sensitivity.svg")))
+
+
 class Calls(StudyCase):
     def test_compute_only_what_is_new(self):
         self.assertEqual(self.study("-o", "out", "desktop"), (4, 0))
@@ -254,6 +309,7 @@ class StudyFiles(StudyCase):
                 ('name = "x"\nconfigurations = ["vdcp:fcv=3"]', "line 2: "),
                 ('name = "x"\ncolour = 1', "line 2: unknown key 'colour'"),
                 ('configurations = ["vdcp"]', "line 1: name = \"...\" is missing"),
+                ('name = "x"\nconfigurations = ["red"]\nbursts = [100]', "line 3: burst"),
                 ('name = "x"', "has no configurations (list them, or declare an [[axis]])"),
                 ('name = "x"\n[[axis]]\nname = "a"\nscheme = "vdcp"\nkey = "fvc"\nvalues = [3]', "line 2: axis 'a': "),
                 ('name = "x"\n[[axis]]\nname = "a"', "line 2: an axis needs name, scheme and key"),

@@ -92,6 +92,7 @@ Result<Figure> rate_over_axis(const StudyData& data, const FigureSpec& spec) {
   const std::string name = spec.normalized_to.empty() ? spec.value : "relative_" + spec.value;
   auto figure = axis_figure(data, spec, {spec.value + "_hmean", spec.value}, name);
   if (figure) {
+    if (!spec.by_workload) add_bound_columns(data, spec, figure->table);
     figure->y_label = rate_label(spec);
     figure->share = !spec.normalized_to.empty();
   }

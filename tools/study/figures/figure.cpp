@@ -66,6 +66,8 @@ std::vector<FigureSpec> figure_specs(const StudyData& data) {
                    .axis = axis.name});
   out.push_back({.name = "rates", .kind = "rates of workloads", .title = "Rates of the workloads"});
   out.push_back({.name = "means", .kind = "means", .title = "Harmonic means"});
+  if (data.sensitivity.row_count() > 0)
+    out.push_back({.name = "sensitivity", .kind = "rate over bursts", .title = "Rates at several DRAM bursts"});
   return out;
 }
 

@@ -4,7 +4,9 @@ import math
 COLUMN_INCHES = 3.5
 PAGE_INCHES = 7.1
 NAMED_WORKLOADS = 24  # more workloads have numbers instead of names
+COLUMN_BARS = 30      # more bars take the page width
 LEGEND_LINES = 8      # more lines than this are thin and without names
+NARROW_SCHEMES = 12   # more schemes take the page width
 PANELS = 6
 
 # Colours differ in lightness, so that they differ in grey too: colour, marker, dashes, hatch.
@@ -24,6 +26,9 @@ SCHEME_STYLES = {"dcp": ("#bdbdbd", "o", "-", ""), "adcp": ("#e69f00", "s", "-",
 OTHER_STYLES = [("#0b3c7d", "o", "-", ""), ("#e69f00", "s", (0, (5, 1.5)), "///"), ("#2a9d8f", "^", (0, (1, 1.2)), ".."),
                 ("#8c2d04", "D", (0, (5, 1.5, 1, 1.5)), "xxx"), ("#7570b3", "v", (0, (3, 1)), "\\\\\\"),
                 ("#999999", "P", (0, (7, 2)), "++"), ("#000000", "X", (0, (2, 2)), "oo"), ("#66a61e", "<", (0, (4, 1, 1, 1)), "--")]
+# Grey lines: what general compressors reach. The CSV files also hold lz4_frame and zstd_frame.
+BOUNDS = {"lz4_block": ("LZ4, each block", (0, (1, 1.2))), "zstd_block": ("zstd, each block", "-"), "webp_frame": ("WebP, whole frame", (0, (5, 1.5)))}
+BOUND_STYLE = {"color": "0.5", "linewidth": 0.8, "zorder": 2.5}
 PUBLISHED = {"marker": "*", "s": 42, "facecolor": "white", "edgecolor": "black", "linewidth": 0.8, "zorder": 5}
 
 
@@ -46,6 +51,26 @@ class Drawing:
         self.plt, self.about, self.rows = plt, about, rows
         self.titles = {category["name"]: category["title"] for category in categories}
         self.order = [category["name"] for category in categories]
+
+    def bounds(self):
+        """The bounds that the rows hold: column, label, dashes."""
+        return [(column, *BOUNDS[column]) for column in BOUNDS if self.rows and any(row.get(column) for row in self.rows)]
+
+    def near_bounds(self, values):
+        """Bounds that fit on the axis of some values. Others would press the values to its foot."""
+        limit = 1.25 * max((value for value in values if math.isfinite(value)), default=0)
+        return [number(row[column]) for row in self.rows for column, _, _ in self.bounds() if row[column] and number(row[column]) < limit]
+
+    def bound_handles(self):
+        line = self.plt.matplotlib.lines.Line2D
+        return [line([], [], color=BOUND_STYLE["color"], linewidth=BOUND_STYLE["linewidth"], linestyle=dashes, label=label)
+                for _, label, dashes in self.bounds()]
+
+    def draw_bounds(self, axes, row, left, right):
+        """A grey line per bound of the row. A bound beyond the axis is not drawn."""
+        for column, _, dashes in self.bounds():
+            if row[column]:
+                axes.hlines(number(row[column]), left, right, linestyles=[dashes], **BOUND_STYLE)
 
     def distinct(self, column):
         return list(dict.fromkeys(row[column] for row in self.rows))
@@ -127,6 +152,10 @@ def draw_axis(drawing):
         for at, value in marks:
             axes.scatter(at, value, **{**PUBLISHED, "edgecolor": color})
         values += y + [value for _, value in marks]
+        bound = number(rows[0].get("zstd_block", ""))
+        if math.isfinite(bound):
+            axes.axhline(bound, linestyle=dashes, label=f"zstd, each block ({category})", **BOUND_STYLE)
+    values += [bound for bound in drawing.near_bounds(values) if any(number(row["zstd_block"]) == bound for row in drawing.rows)]
     drawing.scale_x(axes)
     drawing.scale_y(axes, values)
     if about["share"] and not about["x_column"] == "fvc":
@@ -166,23 +195,25 @@ def draw_grouped_bars(drawing, group_column, groups, member_column, members, sty
     """A group of bars per value of one column, a bar in it per value of the other."""
     about = drawing.about
     cells = {(row[group_column], row[member_column]): row for row in drawing.rows}
-    figure, axes = drawing.start(COLUMN_INCHES, 2.3)
-    width = 0.8 / len(members)
+    wide = len(groups) * len(members) > COLUMN_BARS
+    figure, axes = drawing.start(PAGE_INCHES if wide else COLUMN_INCHES, 2.3)
+    width = (0.9 if wide else 0.8) / len(members)
     means = [number(row[about["y_column"]]) for row in drawing.rows]
-    top = 1.25 * max(means + [number(row["published"]) for row in drawing.rows if row["published"]])
+    top = 1.25 * max(means + drawing.near_bounds(means) + [number(row["published"]) for row in drawing.rows if row["published"]])
     for i, member in enumerate(members):
         color, _, _, hatch = styles(member, i) if styles else drawing.category_style(member)
-        places = [(g - 0.4 + width * (i + 0.5), cells[group, member]) for g, group in enumerate(groups) if (group, member) in cells]
+        places = [(g - width * len(members) / 2 + width * (i + 0.5), cells[group, member]) for g, group in enumerate(groups) if (group, member) in cells]
         axes.bar([x for x, _ in places], [number(row[about["y_column"]]) for _, row in places], width * 0.92, color=color, hatch=hatch,
                  edgecolor="white" if hatch else color, linewidth=0, label=drawing.titles.get(member, member))
         for x, row in places:
+            drawing.draw_bounds(axes, row, x - width / 2, x + width / 2)
             value, low, high = (number(row[name]) for name in (about["y_column"], "minimum", "maximum"))
             axes.plot([x, x], [low, min(high, top)], color="0.35", linewidth=0.6, marker="" if high <= top else None, zorder=3)
             # The value stands in the bar's foot, or above everything else where the bar is too short for it.
             stated = number(row["published"])
             foot = 0 if value > 0.15 * top else max(value, min(high, top), 0 if math.isnan(stated) else stated)
             axes.annotate(f"{value:.2f}" if value < 9.995 else f"{value:.1f}", (x, foot), (0, 2 if foot == 0 else 5), textcoords="offset points",
-                          ha="center", va="bottom", rotation=90 if len(groups) * len(members) > 12 else 0, fontsize=5.5,
+                          ha="center", va="bottom", rotation=90 if len(groups) * len(members) > 12 else 0, fontsize=4.8 if wide else 5.5,
                           bbox={"boxstyle": "square,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.85}, zorder=4)
             if row["published"]:
                 axes.scatter(x, number(row["published"]), **PUBLISHED)
@@ -193,7 +224,7 @@ def draw_grouped_bars(drawing, group_column, groups, member_column, members, sty
     handles = axes.get_legend_handles_labels()[0]
     if any(row["published"] for row in drawing.rows):
         handles.append(published_handle(drawing.plt))
-    drawing.legend(axes, 5 if styles else 2, handles)
+    drawing.legend(axes, 9 if wide else 3 if drawing.bounds() else 5 if styles else 2, handles + drawing.bound_handles())
     return figure
 
 
@@ -222,7 +253,8 @@ def workload_axis(drawing, axes):
 
 
 def width_for(drawing):
-    return COLUMN_INCHES if len(drawing.distinct("workload")) <= 2 * NAMED_WORKLOADS else PAGE_INCHES
+    narrow = len(drawing.distinct("workload")) <= 2 * NAMED_WORKLOADS and len(drawing.about["x_order"]) <= NARROW_SCHEMES
+    return COLUMN_INCHES if narrow else PAGE_INCHES
 
 
 def draw_workload_rates(drawing):
@@ -237,6 +269,9 @@ def draw_workload_rates(drawing):
         values += y
         axes.plot([int(row["order"]) for row in rows], y, color=color, marker=marker, markersize=size, markeredgecolor="black",
                   markeredgewidth=0.35, linestyle="none", label=name)
+    for order in drawing.distinct("order"):
+        drawing.draw_bounds(axes, next(row for row in drawing.rows if row["order"] == order), int(order) - 0.45, int(order) + 0.45)
+    values += drawing.near_bounds(values)
     if max(values) > 16 * min(values) or max(values) > 40:
         axes.set_yscale("log", base=2)
         axes.yaxis.set_major_formatter(drawing.plt.matplotlib.ticker.FormatStrFormatter("%g"))
@@ -244,7 +279,35 @@ def draw_workload_rates(drawing):
     else:
         axes.set_ylim(0, max(values) * 1.18)
     workload_axis(drawing, axes)
-    drawing.legend(axes, 4)
+    columns = 9 if width_for(drawing) == PAGE_INCHES else 3 if drawing.bounds() else 4
+    drawing.legend(axes, columns, axes.get_legend_handles_labels()[0] + drawing.bound_handles())
+    return figure
+
+
+def draw_bursts(drawing):
+    """A panel per category: a mark per scheme and burst, and a line between the marks of a scheme."""
+    about, plt = drawing.about, drawing.plt
+    names = [name for name in about["x_order"] if name in drawing.distinct("configuration")]
+    categories, bursts = drawing.distinct("category"), drawing.distinct("burst")
+    width = COLUMN_INCHES if len(names) <= NARROW_SCHEMES else PAGE_INCHES
+    figure, panels = plt.subplots(len(categories), 1, figsize=(width, 0.7 + 1.25 * len(categories)), layout="constrained", squeeze=False, sharex=True)
+    cells = {(row["category"], row["configuration"], row["burst"]): number(row[about["y_column"]]) for row in drawing.rows}
+    fills = ["#0b3c7d", "white", "#e69f00", "#2a9d8f"]
+    for axes, category in zip(panels[:, 0], categories):
+        for x, name in enumerate(names):
+            values = [cells[category, name, burst] for burst in bursts if (category, name, burst) in cells]
+            axes.plot([x] * len(values), values, color="0.45", marker="", linewidth=0.8, zorder=2)
+        for i, burst in enumerate(bursts):
+            points = [(x, cells[category, name, burst]) for x, name in enumerate(names) if (category, name, burst) in cells]
+            dram = next(row["dram"] for row in drawing.rows if row["burst"] == burst).replace(" ", ", ")
+            axes.scatter([x for x, _ in points], [y for _, y in points], s=16, marker="os^D"[i % 4], facecolor=fills[i % 4], edgecolor="#0b3c7d",
+                         linewidth=0.8, zorder=3, label=f"{burst} bits ({dram})" if dram else f"{burst} bits")
+        axes.set_title(drawing.titles.get(category, category), loc="left", fontsize=6.5, pad=2)
+        axes.set_ylim(0, axes.get_ylim()[1])
+        axes.grid(axis="y")
+    panels[-1, 0].set_xticks(range(len(names)), names, rotation=40, ha="right", rotation_mode="anchor")
+    figure.supylabel(about["y_label"], fontsize=7)
+    panels[0, 0].legend(ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.12), frameon=False)
     return figure
 
 
@@ -361,5 +424,5 @@ def draw_time(drawing):
 
 
 KINDS = {"metrics over time": draw_time, "colour CDF": draw_cdf, "coverage against rate": draw_coverage, "rate over an axis": draw_axis,
-         "relative coverage over an axis": draw_axis, "rates of workloads": draw_workload_rates, "means": draw_means,
+         "relative coverage over an axis": draw_axis, "rates of workloads": draw_workload_rates, "means": draw_means, "rate over bursts": draw_bursts,
          "hybrid shares": draw_hybrid}

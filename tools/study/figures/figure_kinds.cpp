@@ -17,6 +17,7 @@ constexpr FigureKind kKinds[] = {
     {"relative coverage over an axis", relative_coverage_over_axis},
     {"rates of workloads", rates_of_workloads},
     {"means", means_of_categories},
+    {"rate over bursts", rate_over_bursts},
     {"hybrid shares", hybrid_shares},
 };
 

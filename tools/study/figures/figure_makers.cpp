@@ -45,6 +45,19 @@ std::string rate_label(const FigureSpec& spec) {
   return spec.value == "rate_payload" ? "rate without bursts" : "compression rate";
 }
 
+void add_bound_columns(const StudyData& data, const FigureSpec& spec, FigureTable& table) {
+  if (!spec.normalized_to.empty()) return;
+  const bool by_workload = table.has("workload");
+  for (const std::string& name : data.bound_names()) {
+    for (size_t row = 0; row < table.rows.size(); ++row) {
+      const double value = by_workload ? data.bound(table.text(row, "workload"), name, spec.value)
+                                       : data.bound_mean(table.text(row, "category"), name, spec.value + "_hmean");
+      table.rows[row].push_back(number_cell_text(value));
+    }
+    table.header.push_back(name);
+  }
+}
+
 ValueSpread spread_of(std::vector<double> values) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   if (values.empty()) return {kNone, kNone, kNone, 0};

@@ -16,6 +16,7 @@ Result<Figure> relative_coverage_over_axis(const StudyData& data, const FigureSp
 // Kinds over workloads and categories.
 Result<Figure> rates_of_workloads(const StudyData& data, const FigureSpec& spec);
 Result<Figure> means_of_categories(const StudyData& data, const FigureSpec& spec);
+Result<Figure> rate_over_bursts(const StudyData& data, const FigureSpec& spec);
 Result<Figure> hybrid_shares(const StudyData& data, const FigureSpec& spec);
 // Kinds over frames.
 Result<Figure> metrics_over_time(const StudyData& data, const FigureSpec& spec);
@@ -32,6 +33,10 @@ bool shows_category(const FigureSpec& spec, const std::string& category);
 std::vector<std::string> drawn_categories(const StudyData& data, const FigureSpec& spec);
 /// What the y axis of a rate says.
 std::string rate_label(const FigureSpec& spec);
+
+/// Adds a column per bound of the study, which figures draw as grey lines: the bound's value for the workload of
+/// each row, or else for its category. Relative values get none.
+void add_bound_columns(const StudyData& data, const FigureSpec& spec, FigureTable& table);
 
 /// Smallest, middle and largest of some values. NaN without values.
 struct ValueSpread {

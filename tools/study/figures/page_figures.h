@@ -34,8 +34,23 @@ PageChart cdf_lines(const StudyData& data, const Figure& figure);
 PageChart axis_bars(const StudyData& data, const Figure& figure);
 PageChart mean_bars(const StudyData& data, const Figure& figure);
 PageChart rate_dots(const StudyData& data, const Figure& figure);
+PageChart burst_dots(const StudyData& data, const Figure& figure);
 PageChart share_stacks(const StudyData& data, const Figure& figure);
 PageChart coverage_scatter(const StudyData& data, const Figure& figure);
+
+/// A bound that figures draw. lz4_frame and zstd_frame are in the tables alone: five lines cannot be told apart.
+struct DrawnBound {
+  const char* name;
+  const char* label;
+  size_t dash_index;
+};
+inline constexpr DrawnBound kDrawnBounds[] = {{"lz4_block", "LZ4, each block alone", 1},
+                                              {"zstd_block", "zstd, each block alone", 0},
+                                              {"webp_frame", "WebP lossless, whole frame", 2}};
+/// The grey lines of a row of the figure. None without bounds.
+std::vector<ChartLine> bound_lines(const Figure& figure, size_t row);
+/// Adds the grey lines of the figure to a key, and what to know about them to a remark.
+void explain_bounds(const Figure& figure, std::vector<KeyEntry>& key, std::string& remark);
 
 /// The colour of a category on the page.
 size_t category_color(const StudyData& data, const std::string& category);

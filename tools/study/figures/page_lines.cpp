@@ -14,6 +14,7 @@ namespace {
 constexpr size_t kMaxLines = 10;     ///< more lines in one chart cannot be told apart
 constexpr size_t kMaxPoints = 1200;  ///< positions along x
 constexpr double kZoomShare = 0.7;  ///< an axis starts above 0 if no value is below this share of the largest
+constexpr size_t kGreyColor = 9;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 LinePlot empty_plot(const Figure& figure) {
@@ -63,6 +64,18 @@ std::string choice_remark(size_t shown, size_t all) {
   return shown == all ? "" : fmt::format("{} of {} workloads are drawn. The CSV file has all.", shown, all);
 }
 
+/// A grey line per category: what zstd reaches on each block alone.
+void add_bound_lines(const StudyData& data, const Figure& figure, LinePlot& plot) {
+  constexpr const char* kBound = "zstd_block";
+  if (!figure.table.has(kBound)) return;
+  for (const std::string& category : figure.table.distinct("category")) {
+    const double value = data.bound_mean(category, kBound, figure.spec.value + "_hmean");
+    if (std::isfinite(value))
+      plot.lines.push_back({data.category_title(category) + ", zstd on each block", kGreyColor,
+                            std::vector<double>(plot.x.size(), value)});
+  }
+}
+
 }  // namespace
 
 PageChart axis_lines(const StudyData& data, const Figure& figure) {
@@ -85,6 +98,7 @@ PageChart axis_lines(const StudyData& data, const Figure& figure) {
     plot.lines.push_back(std::move(ours));
     if (published) plot.lines.push_back(std::move(paper));
   }
+  add_bound_lines(data, figure, plot);
   set_bottom(plot);
   return {.lines = {{{"", std::move(plot)}}, ""}};
 }

@@ -6,6 +6,7 @@
 
 #include "counted.h"
 #include "report/html_text.h"
+#include "report/scheme_names.h"
 #include "study/figures/page_figures.h"
 
 namespace tilepress {
@@ -14,10 +15,10 @@ namespace {
 constexpr size_t kFirstPartColor = 0, kRawPartColor = 9, kSecondPartColor = 1;
 
 /// "this study" and "paper", of which the second is only there for published values.
-std::string comparison_key(bool published) {
+std::vector<KeyEntry> comparison_key(bool published) {
   std::vector<KeyEntry> key = {{"this study", kOurColor}};
   if (published) key.push_back({"paper", kPaperColor});
-  return chart_key(key);
+  return key;
 }
 
 /// A row with a bar of the study, and one of the paper where it prints a value.
@@ -42,9 +43,14 @@ PageChart comparison_chart(const StudyData& data, const Figure& figure, const st
     published = published || std::isfinite(paper);
     rows.push_back(comparison_row(table.text(row, label_column),
                                   data.category_title(table.text(row, "category")), ours, paper));
+    rows.back().lines = bound_lines(figure, row);
   }
-  return {.html = comparison_key(published) + row_chart(rows, AxisScale::for_rates(0, range.high),
-                                                        RowShape::kBars, figure.y_label, figure.spec.title)};
+  PageChart chart;
+  std::vector<KeyEntry> key = comparison_key(published);
+  explain_bounds(figure, key, chart.remark);
+  chart.html = chart_key(key) + row_chart(rows, AxisScale::for_rates(0, range.high), RowShape::kBars,
+                                          figure.y_label, figure.spec.title);
+  return chart;
 }
 
 /// A chart with many rows is folded: the page stays short.
@@ -67,6 +73,23 @@ std::vector<std::pair<std::string, std::vector<size_t>>> rows_of_workloads(const
 
 }  // namespace
 
+std::vector<ChartLine> bound_lines(const Figure& figure, size_t row) {
+  std::vector<ChartLine> lines;
+  for (const DrawnBound& bound : kDrawnBounds)
+    if (figure.table.has(bound.name))
+      if (const double value = figure.table.number(row, bound.name); std::isfinite(value))
+        lines.push_back({value, bound.dash_index, fmt::format("{}: {}", bound.label, shown_number(value))});
+  return lines;
+}
+
+void explain_bounds(const Figure& figure, std::vector<KeyEntry>& key, std::string& remark) {
+  for (const DrawnBound& bound : kDrawnBounds)
+    if (figure.table.has(bound.name)) {
+      key.push_back({.label = bound.label, .color_index = bound.dash_index, .group = "bounds", .is_line = true});
+      remark = "Grey lines show what general compressors reach. Lines beyond the axis are left out.";
+    }
+}
+
 PageChart axis_bars(const StudyData& data, const Figure& figure) {
   return comparison_chart(data, figure, figure.x_column);
 }
@@ -78,7 +101,8 @@ PageChart mean_bars(const StudyData& data, const Figure& figure) {
 PageChart rate_dots(const StudyData& data, const Figure& figure) {
   const FigureTable& table = figure.table;
   std::vector<KeyEntry> key;
-  for (const std::string& configuration : figure.x_order) key.push_back({configuration, key.size()});
+  for (const std::string& configuration : figure.x_order)
+    key.push_back({configuration, key.size(), name_of(scheme_group(configuration))});
   ValueRange range;
   std::vector<ChartRow> rows;
   for (const auto& [workload, own] : rows_of_workloads(table)) {
@@ -91,11 +115,41 @@ PageChart rate_dots(const StudyData& data, const Figure& figure) {
       line.marks.push_back({rate, static_cast<size_t>(place - figure.x_order.begin()),
                             fmt::format("{}, {}: {}", workload, configuration, shown_number(rate))});
     }
+    line.lines = bound_lines(figure, own.front());
     rows.push_back(std::move(line));
   }
-  return {.html = folded(rows.size(),
-                         chart_key(key) + row_chart(rows, AxisScale::for_rates(range.low, range.high),
-                                                    RowShape::kDots, figure.y_label, figure.spec.title))};
+  PageChart chart;
+  explain_bounds(figure, key, chart.remark);
+  chart.html = folded(rows.size(),
+                      chart_key(key) + row_chart(rows, AxisScale::for_rates(range.low, range.high),
+                                                 RowShape::kDots, figure.y_label, figure.spec.title));
+  return chart;
+}
+
+PageChart burst_dots(const StudyData& data, const Figure& figure) {
+  const FigureTable& table = figure.table;
+  const std::vector<std::string> bursts = table.distinct("burst");
+  std::vector<KeyEntry> key;
+  std::vector<ChartRow> rows;
+  ValueRange range;
+  for (size_t row = 0; row < table.rows.size(); ++row) {
+    const std::string& burst = table.text(row, "burst");
+    const auto color = static_cast<size_t>(std::find(bursts.begin(), bursts.end(), burst) - bursts.begin());
+    if (color == key.size()) {
+      const std::string& dram = table.text(row, "dram");
+      key.push_back({burst + " bits" + (dram.empty() ? "" : " (" + dram + ")"), color});
+    }
+    const std::string& configuration = table.text(row, "configuration");
+    const std::string group = data.category_title(table.text(row, "category"));
+    if (rows.empty() || rows.back().label != configuration || rows.back().group != group)
+      rows.push_back({configuration, group, {}});
+    const double rate = table.number(row, figure.y_column);
+    range.add(rate);
+    rows.back().marks.push_back(
+        {rate, color, fmt::format("{}, {}, burst {}: {}", group, configuration, burst, shown_number(rate))});
+  }
+  return {.html = chart_key(key) + row_chart(rows, AxisScale::for_rates(range.low, range.high), RowShape::kDots,
+                                             figure.y_label, figure.spec.title)};
 }
 
 PageChart share_stacks(const StudyData& data, const Figure& figure) {

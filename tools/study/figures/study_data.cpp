@@ -21,13 +21,42 @@ constexpr StudyFile kFiles[] = {
     {"results.csv", &StudyData::results, true},      {"means.csv", &StudyData::means, true},
     {"workloads.csv", &StudyData::workloads, true},  {"frame_metrics.csv", &StudyData::frame_metrics, false},
     {"color_cdf.csv", &StudyData::color_cdf, false}, {"frame_rates.csv", &StudyData::frame_rates, false},
+    {"bounds.csv", &StudyData::bounds, false},       {"bound_means.csv", &StudyData::bound_means, false},
+    {"sensitivity.csv", &StudyData::sensitivity, false},
 };
 
 double number_or_nan(const StudyTable& table, std::optional<size_t> row, std::string_view column) {
   return row ? table.number(*row, column) : NAN;
 }
 
+/// The number in the row of a table of bounds whose first column holds `subject`.
+double bound_number(const StudyTable& table, std::string_view subject_column, const std::string& subject,
+                    const std::string& bound, std::string_view column) {
+  for (size_t row = 0; row < table.row_count(); ++row)
+    if (table.text(row, subject_column) == subject && table.text(row, "bound") == bound)
+      return table.number(row, column);
+  return NAN;
+}
+
 }  // namespace
+
+std::vector<std::string> StudyData::bound_names() const {
+  std::vector<std::string> names;
+  for (size_t row = 0; row < bound_means.row_count(); ++row)
+    if (const std::string& name = bound_means.text(row, "bound");
+        std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  return names;
+}
+
+double StudyData::bound(const std::string& workload, const std::string& name, std::string_view column) const {
+  return bound_number(bounds, "workload", workload, name, column);
+}
+
+double StudyData::bound_mean(const std::string& category, const std::string& name,
+                             std::string_view column) const {
+  return bound_number(bound_means, "category", category, name, column);
+}
 
 std::optional<size_t> StudyData::result_row(const std::string& workload,
                                             const std::string& configuration) const {

@@ -18,7 +18,7 @@ inline constexpr const char* kAllCategories = "all";
 class StudyData {
  public:
   StudySpec spec;
-  StudyTable results, means, workloads, frame_metrics, color_cdf, frame_rates;
+  StudyTable results, means, workloads, frame_metrics, color_cdf, frame_rates, bounds, bound_means, sensitivity;
   /// What rendered the frames, from provenance.json: name and distinct values.
   std::vector<std::pair<std::string, std::string>> facts;
 
@@ -31,6 +31,12 @@ class StudyData {
   /// A number of these rows; NaN without the row.
   double result(const std::string& workload, const std::string& configuration, std::string_view column) const;
   double mean(const std::string& category, const std::string& configuration, std::string_view column) const;
+
+  /// The bounds of the study, as bound_means.csv names them. Empty without that file.
+  std::vector<std::string> bound_names() const;
+  /// A number of bounds.csv, or of bound_means.csv; NaN without the row.
+  double bound(const std::string& workload, const std::string& name, std::string_view column) const;
+  double bound_mean(const std::string& category, const std::string& name, std::string_view column) const;
 
   /// Categories of means.csv in the study's order. kAllCategories stands last, or alone.
   const std::vector<std::string>& categories() const { return categories_; }

@@ -26,6 +26,7 @@ constexpr ChartRule kCharts[] = {{"metrics over time", change_lines},
                                  {"coverage against rate", coverage_scatter},
                                  {"rates of workloads", rate_dots},
                                  {"means", mean_bars},
+                                 {"rate over bursts", burst_dots},
                                  {"hybrid shares", share_stacks}};
 
 bool mostly_words(const Figure& figure) {

@@ -17,6 +17,8 @@ std::vector<DocumentTable> study_tables(const StudyData& data);
 DocumentTable baseline_table(const StudyData& data);
 /// Every configuration with its means.
 DocumentTable configurations_table(const StudyData& data);
+/// What general compressors reach, by category.
+DocumentTable bounds_table(const StudyData& data);
 /// Every workload, also those without results and why.
 DocumentTable workloads_table(const StudyData& data);
 /// Categories with their workloads and frames, beside the paper's.

@@ -54,6 +54,7 @@ Result<Figure> rates_of_workloads(const StudyData& data, const FigureSpec& spec)
             {workload, category, std::to_string(order), configuration, number_cell_text(rate)});
     }
   });
+  add_bound_columns(data, spec, figure.table);
   figure.x_column = "order";
   figure.y_column = spec.value;
   figure.x_label = "workload";
@@ -81,11 +82,38 @@ Result<Figure> means_of_categories(const StudyData& data, const FigureSpec& spec
                                    number_cell_text(spread.median), number_cell_text(spread.maximum),
                                    number_cell_text(published)});
     }
+  add_bound_columns(data, spec, figure.table);
   figure.x_column = "category";
   figure.y_column = spec.value;
   figure.y_label = rate_label(spec) + ", harmonic mean";
   figure.x_scale = "categories";
   figure.x_order = drawn_configurations(data, spec);
+  return figure;
+}
+
+Result<Figure> rate_over_bursts(const StudyData& data, const FigureSpec& spec) {
+  const StudyTable& table = data.sensitivity;
+  if (table.row_count() == 0)
+    return Error{ErrorKind::kUnsupported, "the study has one burst only (list several: bursts = [128, 256])"};
+  const std::vector<std::string> configurations = drawn_configurations(data, spec);
+  const std::vector<std::string> categories = drawn_categories(data, spec);
+  Figure figure{.spec = spec};
+  figure.table.header = {"category", "configuration", "burst", "dram", "workloads", spec.value, "minimum", "median",
+                         "maximum"};
+  for (const std::string& category : categories)
+    for (const std::string& configuration : configurations)
+      for (size_t row = 0; row < table.row_count(); ++row) {
+        if (table.text(row, "category") != category || table.text(row, "configuration") != configuration) continue;
+        figure.table.rows.push_back({category, configuration, table.text(row, "burst_bits"), table.text(row, "dram"),
+                                     table.text(row, "workloads"), table.text(row, spec.value + "_hmean"),
+                                     table.text(row, spec.value + "_min"), table.text(row, spec.value + "_median"),
+                                     table.text(row, spec.value + "_max")});
+      }
+  figure.x_column = "configuration";
+  figure.y_column = spec.value;
+  figure.y_label = rate_label(spec) + ", harmonic mean";
+  figure.x_scale = "categories";
+  figure.x_order = configurations;
   return figure;
 }
 
