@@ -20,9 +20,9 @@ FIELDS = {
 WINDOW_FIELDS = {"size": str, "manager": str}
 CHECK_FIELDS = {"distinct": int, "change": float, "rate_tolerance": float}
 INPUT_FIELDS = {"at": float, "every": float, "times": int, "do": list}
-# Chromium draws a page by GL ES through EGL, listens for DevTools, and finds no network. Its own handlers of crashes would
-# take the place of apitrace's, which saves the last calls. --test-type hides the bar about flags.
-BROWSER = ["chromium", "--no-sandbox", "--test-type", "--disable-crashpad-for-testing", "--disable-breakpad", "--use-gl=angle",
+# Chromium draws a page by GL ES through EGL, listens for DevTools, and finds no network. --test-type hides the bar
+# about flags.
+BROWSER = ["chromium", "--no-sandbox", "--test-type", "--use-gl=angle",
            "--use-angle=gles-egl", "--ignore-gpu-blocklist", "--no-first-run", "--no-default-browser-check",
            "--password-store=basic", "--disable-component-update", "--disable-background-networking",
            "--host-resolver-rules=MAP * ~NOTFOUND", "--allow-file-access-from-files", "--force-device-scale-factor=2",

@@ -9,6 +9,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+import devtools
 from corpus_messages import Fault, say
 from frame_digests import TILEPRESS
 from session import Session
@@ -19,6 +20,21 @@ FIRST_FRAME_SECONDS = 60
 REGION_SECONDS = 120
 # A recording ends some frames after the region, because the last calls of a killed program can be lost.
 FURTHER_FRAMES = 8
+# A canvas that changes in each frame.
+NOISE = """(() => {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 512;
+  canvas.style.cssText = "position: fixed; left: 0; top: 0; z-index: 100000";
+  const context = canvas.getContext("2d"), noise = context.createImageData(512, 512);
+  document.body.append(canvas);
+  const draw = () => {
+    for (let i = 0; i < noise.data.length; i++) noise.data[i] = Math.random() * 256;
+    context.putImageData(noise, 0, 0);
+    requestAnimationFrame(draw);
+  };
+  draw();
+})()"""
+NOISE_SECONDS = 5
 
 
 def wrapper_of(api):
@@ -115,30 +131,14 @@ def _end(process, session):
             session.log.write(b"the program did not end at SIGQUIT\n")
 
 
-def _writers(trace):
-    """The processes that have the trace open."""
-    found = []
-    for folder in Path("/proc").glob("[0-9]*/fd"):
-        try:
-            if any(os.readlink(link) == str(trace) for link in folder.iterdir()):
-                found.append(int(folder.parent.name))
-        except OSError:
-            continue
-    return found
-
-
-def _end_browser(process, session, trace):
-    """Ends Chromium. It kills the process that draws, with the calls that apitrace's wrapper holds back, and starts another
-    one if that process ends. So the browser stands still while the wrapper writes."""
-    os.killpg(process.pid, signal.SIGSTOP)
-    for writer in _writers(trace):
-        os.kill(writer, signal.SIGQUIT)
-        os.kill(writer, signal.SIGCONT)
-    deadline = time.monotonic() + 20
-    while _writers(trace) and time.monotonic() < deadline:
-        time.sleep(0.1)
-    if _writers(trace):
-        session.log.write(b"the browser did not end at SIGQUIT\n")
+def _end_browser(process, session):
+    """Ends Chromium. It kills the process that draws, with the calls that apitrace's wrapper holds back: up to a megabyte. So
+    the page first draws noise, which fills the wrapper's buffer several times."""
+    try:
+        devtools.perform(Path(session.environment["HOME"]), ["run", NOISE])
+    except (Fault, OSError, ValueError) as error:
+        session.log.write(f"no noise after the region: {error}\n".encode())
+    time.sleep(NOISE_SECONDS)
     os.killpg(process.pid, signal.SIGKILL)
 
 
@@ -162,7 +162,7 @@ def record_program(recipe, work):
             over.set()
         thread.join(timeout=30)
         if recipe.page:
-            _end_browser(process, session, trace)
+            _end_browser(process, session)
         else:
             _end(process, session)
     if not trace.exists() or trace.stat().st_size == 0:
