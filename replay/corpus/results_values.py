@@ -112,6 +112,9 @@ class Values:
     def value_frames(self, category):
         return str(sum(int(row["frames"]) for row in self.paper.members(category)))
 
+    def value_members(self, study):
+        return str(len(self.studies[study.replace("-", " ")].workloads))
+
     def value_long(self, category):
         return str(len(self.paper.long_workloads(category)))
 
