@@ -77,7 +77,15 @@ class Values:
             raise Fault(f"unknown value '{' '.join(words)}'")
         return function(*words[1:])
 
+    def common_members(self, category):
+        """The workloads that every study of the sensitivity has: recordings can come and go between studies."""
+        others = [study for name, study in self.studies.items() if name not in ("paper", "schemes")]
+        return [row["workload"] for row in others[0].members(category) if all(row["workload"] in one.frames for one in others)]
+
     def value_mean(self, study, category, configuration):
+        if study not in ("paper", "schemes"):
+            rates = self.studies[study.replace("-", " ")].rates[configuration]
+            return f"{harmonic_mean([float(rates[name]['rate']) for name in self.common_members(category)]):.2f}"
         return f"{self.studies[study.replace('-', ' ')].mean(category, configuration):.2f}"
 
     def value_payload(self, category, configuration):
@@ -113,7 +121,7 @@ class Values:
         return str(sum(int(row["frames"]) for row in self.paper.members(category)))
 
     def value_members(self, study):
-        return str(len(self.studies[study.replace("-", " ")].workloads))
+        return str(len(self.studies[study].workloads if study in self.studies else self.common_members("all")))
 
     def value_long(self, category):
         return str(len(self.paper.long_workloads(category)))
