@@ -10,6 +10,7 @@ std::deque<SchemeInfo>& schemes() {
       kDcpInfo,     kAdcpInfo,     kVdcpInfo, kHuffDcpInfo, kRasInfo,    kRedInfo,     kHdcpInfo,
       kPaletteInfo, kFbcInfo,      kTeInfo,   kBdiInfo,     kBpcInfo,    kFpcInfo,     kFpcdInfo,
       kCpackInfo,   kFreqValsInfo, kHiloInfo, kMsaaInfo,    kIntel8Info, kIntel11Info, kAmdDccInfo,
+      kLccInfo,
   };
   return registered;
 }

@@ -9,5 +9,6 @@ extern const SchemeInfo kDcpInfo, kAdcpInfo, kVdcpInfo, kHuffDcpInfo, kRasInfo, 
 extern const SchemeInfo kPaletteInfo, kFbcInfo, kTeInfo, kBdiInfo, kBpcInfo;
 extern const SchemeInfo kFpcInfo, kFpcdInfo, kCpackInfo, kFreqValsInfo, kHiloInfo, kMsaaInfo;
 extern const SchemeInfo kIntel8Info, kIntel11Info, kAmdDccInfo;
+extern const SchemeInfo kLccInfo;
 
 }  // namespace tilepress

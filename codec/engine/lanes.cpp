@@ -25,6 +25,7 @@ void Lanes::open(std::span<const SchemeSpec> specs, PixelFormat format, const Mo
     needs_.first_frame |= needs.first_frame;
     needs_.whole_frame |= needs.whole_frame;
     needs_.place |= needs.place;
+    needs_.second_frame_before |= needs.second_frame_before;
     lanes_.push_back(std::move(lane));
   }
 }

@@ -204,10 +204,12 @@ uint64_t SurfaceEngine::frames() const {
 std::vector<uint64_t> SurfaceEngine::history(uint64_t ordinal, PixelFormat format) {
   if (!state_->analyses) state_->open(format);
   std::vector<uint64_t> frames;
-  if (ordinal == 0) return frames;
-  frames.push_back(ordinal - 1);
-  state_->collectors.for_each_period(
-      [&](uint32_t period) { frames.push_back((ordinal - 1) / period * period); });
+  const uint64_t depth = std::min<uint64_t>(ordinal, state_->lanes.needs().second_frame_before ? 2 : 1);
+  if (depth == 0) return frames;
+  for (uint64_t before = ordinal - depth; before < ordinal; ++before) {
+    frames.push_back(before);
+    state_->collectors.for_each_period([&](uint32_t period) { frames.push_back(before / period * period); });
+  }
   if (state_->lanes.needs().first_frame) frames.push_back(0);
   std::sort(frames.begin(), frames.end());
   frames.erase(std::unique(frames.begin(), frames.end()), frames.end());

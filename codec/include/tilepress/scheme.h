@@ -45,6 +45,9 @@ struct BlockContext {
 struct SchemeNeeds {
   bool first_frame = false;  ///< the surface's first frame affects every later frame
   bool whole_frame = false;  ///< begin_frame() reads the pixels of the plane
+  /// The frame before affects a frame through counts that depend on that frame's palette, and so on the frame
+  /// before it.
+  bool second_frame_before = false;
   bool place = false;        ///< a block's bits depend on its position, not only on its pixels
 };
 

@@ -1,0 +1,57 @@
+// LCC codes: a prefix code for each context, learned from the symbols of the frame before.
+//
+//   tables    |length 4| for each symbol of each context, 7840 bits
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "dictionary/huffman.h"
+#include "lcc/lcc_symbols.h"
+#include "tilepress/bit_io.h"
+
+namespace tilepress {
+
+/// How often each symbol was coded.
+using LccCounts = std::array<uint32_t, kLccSymbols>;
+
+/// Code lengths by symbol.
+struct LccLengths {
+  static constexpr uint32_t kBitsEach = 4;
+  static constexpr uint64_t kTableBits = uint64_t{kLccSymbols} * kBitsEach;
+  std::array<uint8_t, kLccSymbols> of{};
+
+  /// Huffman's lengths by spec §5. Each count is raised by 1 and by a 1024th of the context's sum. So each
+  /// symbol has a code, and no code is longer than 14 bits: the sum of a context is at most 1041 times its
+  /// smallest weight, and a code of 15 bits needs 1597 times (the 17th Fibonacci number).
+  static LccLengths learned(const LccCounts& counts);
+  /// Of frames without tables: residuals fall off by half with each step, wider where neighbours differ more.
+  static const LccLengths& fixed();
+
+  uint64_t bits(const LccCounts& counts) const;
+  void write(BitWriter& out) const;
+  void read(BitReader& in);
+};
+
+/// The codes themselves, canonical, by context.
+class LccCodes {
+ public:
+  /// Returns false if the lengths of a context form no prefix code.
+  bool assign(const LccLengths& lengths);
+  /// `number` is a symbol of the context.
+  void write(uint32_t number, BitWriter& out) const;
+  /// Reads a symbol of the context that begins at `first`. Returns false if there is none.
+  bool read(uint32_t first, BitReader& in, uint32_t& symbol) const {
+    return codes_[context_of(first)].read(in, symbol);
+  }
+
+ private:
+  static uint32_t context_of(uint32_t number) {
+    return number < kLccFirstClass ? number / kLccTokens
+                                   : kLccTokenContexts + (number - kLccFirstClass) / kLccClasses;
+  }
+  std::vector<CanonicalCode> codes_;
+};
+
+}  // namespace tilepress

@@ -1,0 +1,89 @@
+#include "lcc/lcc_model.h"
+
+#include <numeric>
+
+#include "lcc/lcc_walk.h"
+
+namespace tilepress {
+namespace {
+
+/// Adds up and counts the symbols of a block.
+struct SymbolSum {
+  const LccPlanes& planes;
+  const uint8_t* lengths;
+  uint32_t* counts;
+  uint32_t index_bits;
+  uint32_t bits = 0;
+
+  void equal(uint32_t symbol, uint32_t count) {
+    counts[symbol] += count;
+    bits += lengths[symbol] * count;
+  }
+  void palette(uint32_t symbol, uint32_t /*index*/) {
+    equal(symbol, 1);
+    bits += index_bits;
+  }
+  void residuals(uint32_t symbol, LccToken token, uint32_t pixel) {
+    equal(symbol, 1);
+    const uint32_t channels = lcc_residual_channels(token);
+    equal(planes.symbol[0][pixel] - (channels == 1 ? kLccLumaAlone : 0), 1);
+    for (uint32_t c = 1; c < channels; ++c) equal(planes.symbol[c][pixel], 1);
+    bits += planes.rest_bits[channels - 1][pixel];
+  }
+};
+
+}  // namespace
+
+void LccModel::begin_frame() {
+  choose_palette();
+  choose_codes();
+  codes_made_ = false;
+  counts_.fill(0);
+}
+
+/// A colour of the palette saves some two bits a pixel: a solid block, 64 pixels, saves a burst.
+void LccModel::choose_palette() {
+  has_palette_ = false;
+  if (view_.ccd == nullptr) return;
+  const uint64_t covered =
+      std::accumulate(ccd().counts.begin(), ccd().counts.end(), uint64_t{0}) * fvc_.sample;
+  has_palette_ = 2 * covered > uint64_t{ccd().entries} * 33;
+}
+
+void LccModel::choose_codes() {
+  const LccLengths learned = LccLengths::learned(counts_);
+  has_codes_ = LccLengths::fixed().bits(counts_) > learned.bits(counts_) + LccLengths::kTableBits;
+  lengths_ = has_codes_ ? learned : LccLengths::fixed();
+}
+
+const LccCodes& LccModel::codes() const {
+  if (!codes_made_) codes_.assign(lengths_);
+  codes_made_ = true;
+  return codes_;
+}
+
+void LccModel::see_block(const BlockContext& block) {
+  if (is_solid(block)) return;
+  kernels_.find_planes(block.raster().pixels, planes_);
+  const uint32_t index_bits = has_palette_ ? ccd().index_bits() : 0;
+  SymbolSum sum{planes_, lengths_.of.data(), counts_.data(), index_bits};
+  // The engine may leave out a block of one colour that it has seen: none is counted.
+  LccCounts uncounted;
+  if (block.uniform) sum.counts = uncounted.data();
+  lcc_walk(planes_, has_palette_ ? view_.indices : nullptr, index_bits, sum);
+  bits_ = lcc_first_bits(block.pixels[0], has_palette_, first_index(), index_bits) + sum.bits;
+}
+
+LccModel& LccSource::model_of(const FvcConfig& fvc, const CcdView& view) {
+  for (LccModel& model : models_)
+    if (model.fvc() == fvc) return model;
+  return models_.emplace_back(fvc, view);
+}
+
+uint32_t lcc_first_bits(uint32_t pixel, bool has_palette, uint32_t index, uint32_t index_bits) {
+  const uint32_t flag = has_palette ? 1 : 0;
+  if (has_palette && index != kNotInCcd) return flag + index_bits;
+  return flag + 1 + (pixel >> 24 == 255 ? 24 : 32);
+}
+
+}  // namespace tilepress
