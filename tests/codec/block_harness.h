@@ -125,7 +125,7 @@ class BlockHarness {
       context.uniform = std::count(pixels.begin(), pixels.end(), pixels[0]) == kBlockPixels;
       owner.dictionary_.view.indices = indices.data();
       owner.dictionary_.view.widths = widths.data();
-      owner.show(block);
+      owner.show(block, context);
     }
     std::array<uint32_t, kBlockPixels> pixels;
     std::array<uint16_t, kBlockPixels> indices;
@@ -138,11 +138,10 @@ class BlockHarness {
     CcdView view;
   };
   /// Lets the other analyses see a block, as a frame of that block alone.
-  void show(const Block& block) const {
+  void show(const Block& block, const BlockContext& context) const {
     reference::Picture picture{8, 8, {block.pixels.begin(), block.pixels.end()}};
     plane_.assign(patterns::in_memory(picture, pixel_format_).view());
     const std::vector<uint8_t> changed(1, 1);
-    const BlockContext context{};
     analyses_.for_each([&](BlockAnalysis& analysis) {
       analysis.begin_frame({plane_, 0, changed.data()});
       analysis.see_block(context);

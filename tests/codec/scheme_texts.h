@@ -38,6 +38,8 @@ inline constexpr const char* kSchemeTexts[] = {
     "intel8",
     "intel11",
     "amddcc",
+    "lcc",
+    "lcc:fvc=512",
 };
 
 }  // namespace harness
