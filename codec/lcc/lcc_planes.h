@@ -18,6 +18,7 @@ struct LccPlanes {
   LccPlane<uint8_t> shape;                     ///< of the neighbourhood
   LccPlane<uint8_t> residual;                  ///< the token if the pixel is coded as residuals
   LccPlane<uint8_t> estimate;                  ///< bits of these residuals, see kLccPaletteMargin
+  uint32_t estimates;                          ///< their sum over pixels without an equal neighbour
   std::array<LccPlane<uint8_t>, 4> folded;     ///< residuals by channel
   std::array<LccPlane<uint16_t>, 4> symbol;    ///< their classes; see lcc_class_symbol about luma
   std::array<LccPlane<uint8_t>, 4> rest_bits;  ///< the bits after the classes of this channel and all before
@@ -100,6 +101,10 @@ template <uint32_t kChannel>
     const auto alpha_bits = static_cast<uint8_t>(1 + lcc_size(out.folded[3][i]));
     out.estimate[i] = static_cast<uint8_t>(luma_bits + color * color_bits + alpha * alpha_bits);
   }
+  uint32_t estimates = 0;
+  for (uint32_t i = 0; i < kBlockPixels; ++i)
+    estimates += out.token[i] == lcc_number(LccToken::kPalette) ? out.estimate[i] : 0u;
+  out.estimates = estimates;
 }
 
 /// The plain definition of LccKernels::find_planes.

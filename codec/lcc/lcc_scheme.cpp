@@ -1,7 +1,8 @@
 // LCC: Learned Context Codes. Each pixel is a token and residuals in prefix codes that are learned from the
 // frame before, as the paper's palette is. DESIGN.md tells why, and what each part brings.
 //
-//   CSB       status: 7 bits for bursts of 128 bits, ceil(log2(64 + 1 + 2048 / burst bits + 1)) in general. It is
+//   CSB       status: 7 bits for bursts of 128 bits, ceil(log2(64 + 1 + 2048 / burst bits + 1)) in general.
+//   It is
 //             0 … 63   the whole block has this colour of the CCD: no payload
 //             64       raw
 //             64 + b   b bursts of payload

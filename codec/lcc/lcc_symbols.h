@@ -49,6 +49,9 @@ constexpr uint32_t kLccFirstClass = kLccTokenContexts * kLccTokens;
 constexpr uint32_t kLccSymbols = kLccFirstClass + kLccResidualContexts * kLccClasses;
 /// The estimate for residuals must exceed the bits of an index by more than this for a colour of the CCD.
 constexpr uint32_t kLccPaletteMargin = 2;
+/// Blocks whose estimates sum up to this or more are noise, which is stored raw: nothing is learned from
+/// them.
+constexpr uint32_t kLccNoise = 1984;
 
 /// Raster positions of the neighbours of each pixel. Those of pixel 0 have no meaning.
 struct LccNeighbors {

@@ -132,6 +132,20 @@ TEST(Lcc, LearnsItsCodesFromTheFrameBefore) {
   }
 }
 
+TEST(Lcc, LearnsNothingFromNoise) {
+  patterns::Dice dice(5);
+  SurfaceEngine engine({parsed("lcc")}, ModelOptions{});
+  for (int frame = 0; frame < 3; ++frame) {
+    reference::Picture picture{64, 64, std::vector<uint32_t>(64 * 64)};
+    for (uint32_t& word : picture.words) word = dice.next() << 16 ^ dice.next();
+    const auto noise = patterns::in_memory(picture, PixelFormat::kRgba8);
+    FrameStatistics found;
+    engine.process(noise.view(), found);
+    EXPECT_EQ(found.schemes[0].palette_bits, 0u);
+    EXPECT_EQ(found.schemes[0].payload_bits, 64u * 2048);
+  }
+}
+
 TEST(Lcc, DependsOnTheFramesOfItsHistoryAlone) {
   const std::vector<SchemeSpec> schemes{parsed("lcc"), parsed("lcc:fvc=16,period=3")};
   SurfaceEngine whole(schemes, ModelOptions{}), part(schemes, ModelOptions{});
@@ -174,6 +188,7 @@ TEST(LccKernels, PlanesAreTheSameOnEveryTarget) {
       ASSERT_EQ(other.shape, plain.shape);
       ASSERT_EQ(other.residual, plain.residual);
       ASSERT_EQ(other.estimate, plain.estimate);
+      ASSERT_EQ(other.estimates, plain.estimates);
       ASSERT_EQ(other.folded, plain.folded);
       ASSERT_EQ(other.symbol, plain.symbol);
       ASSERT_EQ(other.rest_bits, plain.rest_bits);
