@@ -20,7 +20,8 @@ void set_lengths(std::span<const uint32_t> weights, LccLengths& lengths, uint32_
   std::copy(found.begin(), found.end(), lengths.of.begin() + at);
 }
 
-/// Weights of tokens without tables, by kind of shape (all equal, two equal, none) and residuals beside.
+/// Weights of tokens without tables, by kind of shape and residuals beside. Kinds: left = above; above left
+/// equals one of them; no two are equal.
 constexpr uint32_t kFixedTokens[3][3][kLccTokens] = {
     {{900, 60, 10, 10, 10, 20, 10, 1}, {300, 80, 20, 30, 20, 40, 20, 1}, {120, 60, 20, 30, 20, 120, 60, 4}},
     {{60, 100, 10, 20, 20, 20, 10, 1}, {50, 60, 10, 20, 20, 60, 40, 1}, {30, 30, 10, 20, 10, 120, 100, 4}},
@@ -30,8 +31,8 @@ constexpr uint32_t fixed_kind(uint32_t shape) {
   return shape <= 1 || shape == 4 ? 0 : shape <= 3 ? 1 : 2;
 }
 
-/// Folded residuals until the weight halves: by class of gradient, by the class halved, and by the size of
-/// the residual of the channel before.
+/// Folded residuals until the weight halves. Luma and alpha: by class of gradient. Colours: the mean, rounded
+/// up, of a number by half the class and a number by the bit width of the residual before.
 constexpr uint32_t kFixedByGradient[8] = {1, 1, 2, 3, 4, 7, 12, 24};
 constexpr uint32_t kFixedByHalfGradient[5] = {1, 1, 2, 4, 10};
 constexpr uint32_t kFixedBySize[8] = {1, 1, 1, 2, 2, 3, 6, 12};

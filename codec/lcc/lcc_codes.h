@@ -1,6 +1,11 @@
 // LCC codes: a prefix code for each context, learned from the symbols of the frame before.
 //
 //   tables    |length 4| for each symbol of each context, 7840 bits
+//
+// Fixed lengths are Huffman's for weights too. Those of tokens are a table in lcc_codes.cpp. The weight of a
+// class of residuals is v · 2^20 / 2^min(26, f / h), both divisions rounded down: v is the number of folded
+// residuals of the class (64 for the last), f is the first of them, and h is the half-life of the context,
+// also in lcc_codes.cpp. In Huffman's rule, the leaves of a context have ids in the order of their symbols.
 #pragma once
 
 #include <array>
@@ -22,9 +27,9 @@ struct LccLengths {
   static constexpr uint64_t kTableBits = uint64_t{kLccSymbols} * kBitsEach;
   std::array<uint8_t, kLccSymbols> of{};
 
-  /// Huffman's lengths by spec §5. Each count is raised by 1 and by a 1024th of the context's sum. So each
-  /// symbol has a code, and no code is longer than 14 bits: the sum of a context is at most 1041 times its
-  /// smallest weight, and a code of 15 bits needs 1597 times (the 17th Fibonacci number).
+  /// Huffman's lengths by spec §5. Each count is raised by 1 and by a 1024th of the context's sum, rounded
+  /// down. So each symbol has a code, and no code is longer than 14 bits: the sum of a context is at most
+  /// 1041 times its smallest weight, and a code of 15 bits needs 1597 times (the 17th Fibonacci number).
   static LccLengths learned(const LccCounts& counts);
   /// Of frames without tables: residuals fall off by half with each step, wider where neighbours differ more.
   static const LccLengths& fixed();

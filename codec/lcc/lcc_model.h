@@ -1,5 +1,11 @@
 // LCC model: what the encoders of one FVC configuration share: the tables in force, the symbols of the block
 // at hand, and the counts that the next frame's tables come from.
+//
+// A frame has a palette if twice the pixels that the CCD's counts stand for (their sum × the FVC's `sample`)
+// exceed 33 N, the bits of N entries. A frame has code lengths if the symbols counted in the frame before
+// take over 7840 bits more with the fixed lengths than with the lengths learned from them. Blocks of one
+// colour and noise (kLccNoise) are not counted. Other raw blocks are counted with the symbols that they would
+// have.
 #pragma once
 
 #include <cstdint>

@@ -1,18 +1,17 @@
 // LCC: Learned Context Codes. Each pixel is a token and residuals in prefix codes that are learned from the
 // frame before, as the paper's palette is. DESIGN.md tells why, and what each part brings.
 //
-//   CSB       status: 7 bits for bursts of 128 bits, ceil(log2(64 + 1 + 2048 / burst bits + 1)) in general.
-//   It is
+//   CSB       status: ceil(log2(64 + 1 + ceil(2048 / burst bits))) bits, 7 for bursts of 128 bits. It is
 //             0 … 63   the whole block has this colour of the CCD: no payload
 //             64       raw
 //             64 + b   b bursts of payload
 //   payload   |first pixel|token|…|token|…|…, raster order, below 2048 bits; or 64 raw pixels
-//     first   |1|index M|, or |0|1|R|G|B| if A is 255, or |0|0|R|G|B|A|. Without palette the first bit is
-//     left out token   a code of the token's context (lcc_symbols.h), then
+//     first   |1|index M|, or |0|1|R|G|B| if A is 255, or |0|0|R|G|B|A|. Without palette: |1|R|G|B| or
+//             |0|R|G|B|A|
+//     token   a code of the token's context (lcc_symbols.h), then
 //               equal to a neighbour   nothing
 //               colour of the CCD      |index M|
-//               residual               |class|rest| for luma; R − G; B − G; alpha: the first 1, 3 or 4 of
-//               them
+//               residual               |class|rest| for the first 1, 3 or 4 of luma, R − G, B − G, alpha
 //   tables    |v|color 32| N ×, or nothing; then |code length 4| 1960 ×, or nothing (lcc_codes.h)
 //
 // The palette is the CCD of the FVC, as in DCP. The code lengths come from the symbols of the frame before. A

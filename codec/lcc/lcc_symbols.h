@@ -7,9 +7,30 @@
 //
 // A pixel is a *token*, the first that fits: equal to a neighbour (left, above, above left, above right), a
 // colour of the CCD, or a *residual*: the difference to what the median edge rule predicts, for luma alone,
-// for all colours, or for colours and alpha. Luma is G; the colours are R − G and B − G. All channels have 8
-// bits, and differences wrap. A colour of the CCD is taken if the residuals would take more bits by a fixed
-// estimate, so that tokens do not depend on the code tables.
+// for luma and both colours, or for these and alpha. Luma is G; the colours are R − G and B − G, wrapped to
+// −128 … 127. Predictions and gradients are plain integers. A residual is wrapped to −128 … 127.
+//
+// A colour of the CCD is taken if the residuals would take over 2 bits more than its index by a fixed
+// estimate: 1 + bit width of u for each channel of the token (u below). So tokens do not depend on the code
+// tables.
+//
+// The *context* of a token is the shape of the neighbourhood, and how many of left and above are residuals.
+// The first pixel is none. In row 0 and column 0, where left and above are the same pixel, a residual counts
+// twice. The first shape that fits:
+//
+//   0, 1   left = above = above left: 0 if above right equals them too, else 1
+//   2      left = above left
+//   3      above = above left
+//   4      left = above
+//   5 … 7  others, by the gradients of luma, R − G and B − G added up: 0 to 8, 9 to 32, more
+//
+// A *gradient* of a channel is |left − above left| + |above − above left|. Its class is 0 to 7. The context
+// of a residual is
+//
+//   luma           the class of the gradient; luma alone has contexts of its own
+//   R − G, B − G   half the class, rounded up, and the bit width, at most 7, of the residual u before: that
+//                  of luma for R − G, that of R − G for B − G. Each of the two has contexts of its own
+//   alpha          the class of the gradient
 //
 // A residual e is folded to u = 2e (e ≥ 0), −2e − 1 (e < 0). Its *class* is u itself up to 4. Above, each
 // octave of u − 1 has two classes, and the lower bits follow plainly:
@@ -49,8 +70,9 @@ constexpr uint32_t kLccFirstClass = kLccTokenContexts * kLccTokens;
 constexpr uint32_t kLccSymbols = kLccFirstClass + kLccResidualContexts * kLccClasses;
 /// The estimate for residuals must exceed the bits of an index by more than this for a colour of the CCD.
 constexpr uint32_t kLccPaletteMargin = 2;
-/// Blocks whose estimates sum up to this or more are noise, which is stored raw: nothing is learned from
-/// them.
+/// Blocks whose estimates sum up to this or more are noise, mostly stored raw: nothing is learned from them.
+/// Pixels that equal a neighbour, and the first, add nothing. Colours of the CCD add what their residuals
+/// would.
 constexpr uint32_t kLccNoise = 1984;
 
 /// Raster positions of the neighbours of each pixel. Those of pixel 0 have no meaning.

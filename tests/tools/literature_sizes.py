@@ -123,20 +123,37 @@ def collect(picture, width, height, entries):
     return slots
 
 
-def code_lengths(slots, pixels):
-    """Length of each color's code, and of the escape (None)."""
-    ordered = sorted(slots, key=lambda slot: -slot[0])  # stable: ties by slot
-    heap = [(count, i, [color]) for i, (count, color) in enumerate(ordered)]
-    heap.append((pixels - sum(count for count, _ in ordered), len(heap), [None]))
-    lengths, fresh = {node[2][0]: 0 for node in heap}, len(heap)
+def huffman(weights):
+    """Length of each weight's code. Joins the two nodes of smallest (weight, number); the new node takes the next number."""
+    heap, lengths = [(weight, i, [i]) for i, weight in enumerate(weights)], [0] * len(weights)
+    fresh = len(heap)
     heapq.heapify(heap)
     while len(heap) > 1:
         a, b = heapq.heappop(heap), heapq.heappop(heap)
-        for color in a[2] + b[2]:
-            lengths[color] += 1
+        for leaf in a[2] + b[2]:
+            lengths[leaf] += 1
         heapq.heappush(heap, (a[0] + b[0], fresh, a[2] + b[2]))
         fresh += 1
     return lengths
+
+
+def dictionary(slots):
+    """The CCD: slots of [count, color], most frequent first."""
+    return sorted(slots, key=lambda slot: -slot[0])  # stable: ties by slot
+
+
+def code_lengths(slots, pixels):
+    """Length of each color's code, and of the escape (None)."""
+    ordered = dictionary(slots)
+    escapes = pixels - sum(count for count, _ in ordered)
+    return dict(zip([color for _, color in ordered] + [None], huffman([count for count, _ in ordered] + [escapes])))
+
+
+def read_picture(path):
+    """Width, height and pixels as words."""
+    width, height, channels, samples = read_png(path)
+    return width, height, [int.from_bytes(samples[at:at + channels] + (b"" if channels == 4 else b"\xff"), "little")
+                           for at in range(0, len(samples), channels)]
 
 
 def blocks_of(picture, width, height):
@@ -168,22 +185,25 @@ def figures(scheme, blocks, lengths, entries):
             "csb_bits": csb * len(sizes), "palette_bits": 39 * entries + 6 if lengths is not None else 0}
 
 
+def measured(command, schemes, images, options=()):
+    """Rows of the program's schemes.csv by scheme and frame."""
+    with tempfile.TemporaryDirectory() as folder:
+        words = [command, "frames", "-q", "--verify", "-o", folder, *options]
+        for scheme in schemes:
+            words += ["-s", scheme]
+        subprocess.run(words + images, check=True)
+        with open(os.path.join(folder, "schemes.csv"), newline="", encoding="utf-8") as file:
+            return {(row["scheme"], int(row["frame"])): row for row in csv.DictReader(file)}
+
+
 def main():
     command, golden, name = sys.argv[1:4]
     images = sorted(os.path.join(golden, name, file) for file in os.listdir(os.path.join(golden, name)))
     images = images[:int(sys.argv[4])] if len(sys.argv) > 4 else images
-    with tempfile.TemporaryDirectory() as folder:
-        words = [command, "frames", "-q", "--verify", "-o", folder]
-        for scheme in SCHEMES:
-            words += ["-s", scheme]
-        subprocess.run(words + images, check=True)
-        with open(os.path.join(folder, "schemes.csv"), newline="", encoding="utf-8") as file:
-            got = {(row["scheme"], int(row["frame"])): row for row in csv.DictReader(file)}
+    got = measured(command, SCHEMES, images)
     faults, lengths = [], {}
     for frame, image in enumerate(images):
-        width, height, channels, samples = read_png(image)
-        picture = [int.from_bytes(samples[at:at + channels] + (b"" if channels == 4 else b"\xff"), "little")
-                   for at in range(0, len(samples), channels)]
+        width, height, picture = read_picture(image)
         blocks = list(blocks_of(picture, width, height))
         for scheme in SCHEMES:
             entries = int(scheme.partition("fvc=")[2] or 64)
