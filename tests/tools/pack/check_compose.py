@@ -105,7 +105,7 @@ def check_cost():
     hardware = {scheme["name"]: scheme["hardware"] for scheme in json.loads(run("cost", "--json").stdout)["schemes"]}
     assert hardware["vdcp"] == "FVC, CCD and rCCD" and hardware["intel11"] == "not known", hardware
     text = run("cost", "--rate", "2.9").stdout.decode()
-    assert "amddcc: not known\n" in text, text
+    assert "amddcc, lcc: not known\n" in text, text
     assert "saves 64.4 %" in text and "199.6 mW is" in text and "swapped" not in text and "264 bytes" in text, text
     run("cost", "--fvc", "3", status=2)
     run("cost", "--rate", "0", status=2)
