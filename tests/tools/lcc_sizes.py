@@ -4,7 +4,7 @@
 Usage: lcc_sizes.py TILEPRESS GOLDEN_FOLDER SET [FRAMES]
 
 A model of its own: it knows the rules of the head comments in codec/lcc, and no line of the program. It runs the frames
-of the set, their upper left corners, and noise."""
+of the set, their upper left corners, noise, and blocks of one color."""
 import functools
 import itertools
 import os
@@ -192,6 +192,16 @@ def noise(seed, width, height, mask):
     return width, height, [dice.getrandbits(32) & mask for _ in range(width * height)]
 
 
+def tiles(seed):
+    """Blocks of 96 colors that stay from frame to frame, and a third of noise between them."""
+    dice, side = random.Random(seed), 96
+    picture = []
+    for y, x in itertools.product(range(side), repeat=2):
+        block = y // 8 * 12 + x // 8
+        picture.append(dice.getrandbits(32) & 0x0F0F0F | 0xFF000000 if block % 3 == 0 else 0xFF000000 + 0x10203 * block)
+    return side, side, picture
+
+
 def compare(command, name, frames, folder):
     """Writes the frames as raw files, and returns what differs."""
     files = []
@@ -224,9 +234,10 @@ def main():
     for width, height in CORNERS:
         sets[f"{name}-{width}x{height}"] = [corner_of(frame, width, height) for frame in frames]
     sets["noise"] = [noise(seed, 75, 50, mask) for seed, mask in enumerate((0xFFFFFFFF, 0xFF0F0F0F, 0xFF070707))]
+    sets["tiles"] = [tiles(seed) for seed in range(3)]
     with tempfile.TemporaryDirectory() as folder:
         faults = [fault for title, pictures in sets.items() for fault in compare(command, title, pictures, folder)]
-    print("\n".join(faults) if faults else f"{name}: {len(frames)} frames, their corners and noise agree")
+    print("\n".join(faults) if faults else f"{name}: {len(frames)} frames, their corners, noise and tiles agree")
     return 1 if faults else 0
 
 
