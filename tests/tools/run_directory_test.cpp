@@ -275,7 +275,7 @@ TEST_F(RunDirectory, ASurplusFieldIsNotThatOfAMissingColumn) {
 TEST_F(RunDirectory, HasNoHeatMapOfASchemeThatSkipsTheSurface) {
   options_.schemes = {*parse_scheme("red"), *parse_scheme("intel8")};
   options_.heatmaps_every = 1;
-  fs::create_directory(path_);
+  fs::create_directories(path_);
   FramePictures pictures;
   pictures.open(path_, options_);
   const std::vector<std::byte> bytes(8 * 8 * 4);
