@@ -66,11 +66,10 @@ void LccModel::see_block(const BlockContext& block) {
   if (is_solid(block)) return;
   kernels_.find_planes(block.raster().pixels, planes_);
   const uint32_t index_bits = has_palette_ ? ccd().index_bits() : 0;
-  SymbolSum sum{planes_, lengths_.of.data(), counts_.data(), index_bits};
   // Nothing is learned from noise, and from blocks of one colour: the engine may leave one out that it has
   // seen.
-  LccCounts uncounted;
-  if (block.uniform || planes_.estimates >= kLccNoise) sum.counts = uncounted.data();
+  const bool learns = !block.uniform && planes_.estimates < kLccNoise;
+  SymbolSum sum{planes_, lengths_.of.data(), learns ? counts_.data() : ignored_.data(), index_bits};
   lcc_walk(planes_, has_palette_ ? view_.indices : nullptr, index_bits, sum);
   bits_ = lcc_first_bits(block.pixels[0], has_palette_, first_index(), index_bits) + sum.bits;
 }

@@ -64,6 +64,7 @@ class LccModel {
   LccPlanes planes_;
   uint32_t bits_ = 0;
   LccCounts counts_{};
+  LccCounts ignored_{};  ///< counts of blocks that nothing is learned from
 };
 
 /// The shared analysis of LCC.
