@@ -47,7 +47,7 @@ void LccModel::choose_palette() {
   if (view_.ccd == nullptr) return;
   const uint64_t covered =
       std::accumulate(ccd().counts.begin(), ccd().counts.end(), uint64_t{0}) * fvc_.sample;
-  has_palette_ = 2 * covered > uint64_t{ccd().entries} * 33;
+  has_palette_ = 2 * covered > palette_bits();
 }
 
 void LccModel::choose_codes() {
@@ -65,25 +65,25 @@ const LccCodes& LccModel::codes() const {
 void LccModel::see_block(const BlockContext& block) {
   if (is_solid(block)) return;
   kernels_.find_planes(block.raster().pixels, planes_);
-  const uint32_t index_bits = has_palette_ ? ccd().index_bits() : 0;
   // Nothing is learned from noise, and from blocks of one colour: the engine may leave one out that it has
   // seen.
   const bool learns = !block.uniform && planes_.estimates < kLccNoise;
-  SymbolSum sum{planes_, lengths_.of.data(), learns ? counts_.data() : ignored_.data(), index_bits};
-  lcc_walk(planes_, has_palette_ ? view_.indices : nullptr, index_bits, sum);
-  bits_ = lcc_first_bits(block.pixels[0], has_palette_, first_index(), index_bits) + sum.bits;
+  SymbolSum sum{planes_, lengths_.of.data(), learns ? counts_.data() : ignored_.data(), index_bits()};
+  lcc_walk(planes_, indices(), index_bits(), sum);
+  bits_ = first_pixel_bits(block.pixels[0]) + sum.bits;
+}
+
+/// What the head of lcc_scheme.cpp draws.
+uint32_t LccModel::first_pixel_bits(uint32_t pixel) const {
+  const uint32_t flag = has_palette_ ? 1 : 0;
+  if (first_index() != kNotInCcd) return flag + index_bits();
+  return flag + 1 + (pixel >> 24 == kLccOpaque ? 24 : 32);
 }
 
 LccModel& LccSource::model_of(const FvcConfig& fvc, const CcdView& view) {
   for (LccModel& model : models_)
     if (model.fvc() == fvc) return model;
   return models_.emplace_back(fvc, view);
-}
-
-uint32_t lcc_first_bits(uint32_t pixel, bool has_palette, uint32_t index, uint32_t index_bits) {
-  const uint32_t flag = has_palette ? 1 : 0;
-  if (has_palette && index != kNotInCcd) return flag + index_bits;
-  return flag + 1 + (pixel >> 24 == 255 ? 24 : 32);
 }
 
 }  // namespace tilepress

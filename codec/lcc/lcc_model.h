@@ -22,6 +22,9 @@ namespace tilepress {
 /// or 64 + bursts.
 constexpr uint32_t kLccSolidColors = 64;
 
+constexpr uint32_t kLccPixelBits = 32;
+constexpr uint32_t kLccOpaque = 255;
+
 class LccModel {
  public:
   LccModel(const FvcConfig& fvc, const CcdView& view) : fvc_(fvc), view_(view) {}
@@ -36,6 +39,11 @@ class LccModel {
   bool has_codes() const { return has_codes_; }
   const Ccd& ccd() const { return *view_.ccd; }
   const CcdView& view() const { return view_; }
+  /// Bits of an index into the palette, and the indices of the block at hand; 0 and null without palette.
+  uint32_t index_bits() const { return has_palette_ ? ccd().index_bits() : 0; }
+  const uint16_t* indices() const { return has_palette_ ? view_.indices : nullptr; }
+  /// Bits of the CCD as a table.
+  uint64_t palette_bits() const { return uint64_t{ccd().entries} * (kLccPixelBits + 1); }
   const LccLengths& lengths() const { return lengths_; }
   /// The codes of lengths().
   const LccCodes& codes() const;
@@ -51,6 +59,7 @@ class LccModel {
   uint32_t first_index() const { return has_palette_ ? view_.indices[0] : kNotInCcd; }
 
  private:
+  uint32_t first_pixel_bits(uint32_t pixel) const;
   void choose_palette();
   void choose_codes();
 
@@ -82,8 +91,5 @@ class LccSource final : public BlockAnalysis {
  private:
   std::deque<LccModel> models_;  ///< a deque: encoders keep references
 };
-
-/// Bits of the first pixel: |1|index M|, or |0| (left out without palette) |1|R G B 24|, |0|R G B A 32|.
-uint32_t lcc_first_bits(uint32_t pixel, bool has_palette, uint32_t index, uint32_t index_bits);
 
 }  // namespace tilepress

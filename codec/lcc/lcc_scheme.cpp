@@ -29,10 +29,8 @@
 namespace tilepress {
 namespace {
 
-constexpr uint32_t kPixelBits = 32;
-constexpr uint32_t kRawBits = kBlockPixels * kPixelBits;
+constexpr uint32_t kRawBits = kBlockPixels * kLccPixelBits;
 constexpr uint32_t kRawStatus = kLccSolidColors;
-constexpr uint32_t kOpaque = 255;
 /// The largest palette: its table and the code lengths stay below 4 KiB (spec §15).
 constexpr uint32_t kMostEntries = 512;
 
@@ -81,11 +79,11 @@ class LccEncoder final : public BlockEncoder {
   }
   uint32_t csb_bits() const override { return status_bits_; }
   uint64_t palette_bits() const override {
-    return (model_->has_palette() ? uint64_t{model_->ccd().entries} * (kPixelBits + 1) : 0) +
+    return (model_->has_palette() ? model_->palette_bits() : 0) +
            (model_->has_codes() ? LccLengths::kTableBits : 0);
   }
   void write_tables(BitWriter& out) const override {
-    if (model_->has_palette()) write_colors(model_->ccd().colors, model_->ccd().entries, kPixelBits, out);
+    if (model_->has_palette()) write_colors(model_->ccd().colors, model_->ccd().entries, kLccPixelBits, out);
     if (model_->has_codes()) model_->lengths().write(out);
   }
   uint32_t measure(const BlockContext& block) const override {
@@ -95,13 +93,12 @@ class LccEncoder final : public BlockEncoder {
     if (model_->is_solid(block)) return csb.put(model_->first_index(), status_bits_);
     if (model_->bits() >= kRawBits) {
       csb.put(kRawStatus, status_bits_);
-      return write_raw_block(block.pixels, kPixelBits, payload);
+      return write_raw_block(block.pixels, kLccPixelBits, payload);
     }
     csb.put(kRawStatus + bursts_of(model_->bits(), burst_bits_), status_bits_);
     write_first(block.pixels[0], payload);
-    const uint32_t index_bits = model_->has_palette() ? model_->ccd().index_bits() : 0;
-    lcc_walk(model_->planes(), model_->has_palette() ? model_->view().indices : nullptr, index_bits,
-             SymbolWriter{model_->planes(), model_->codes(), index_bits, payload});
+    lcc_walk(model_->planes(), model_->indices(), model_->index_bits(),
+             SymbolWriter{model_->planes(), model_->codes(), model_->index_bits(), payload});
   }
   std::optional<FvcFigures> fvc_figures() const override { return model_->view().collected; }
 
@@ -109,8 +106,8 @@ class LccEncoder final : public BlockEncoder {
   void write_first(uint32_t pixel, BitWriter& out) const {
     const uint32_t index = model_->first_index();
     if (model_->has_palette()) out.put(index != kNotInCcd, 1);
-    if (index != kNotInCcd) return out.put(index, model_->ccd().index_bits());
-    const bool opaque = pixel >> 24 == kOpaque;
+    if (index != kNotInCcd) return out.put(index, model_->index_bits());
+    const bool opaque = pixel >> 24 == kLccOpaque;
     out.put(opaque, 1);
     for (uint32_t byte = 0; byte < (opaque ? 3 : 4); ++byte) out.put(pixel >> 8 * byte & 255, 8);
   }
@@ -128,25 +125,27 @@ class LccDecoder final : public BlockDecoder {
         status_bits_(status_bits(model)) {}
 
   bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override {
-    const uint64_t palette_bits = uint64_t{entries_} * (kPixelBits + 1);
+    has_tables_ = false;
+    const uint64_t palette_bits = uint64_t{entries_} * (kLccPixelBits + 1);
     has_palette_ = table_bits == palette_bits || table_bits == palette_bits + LccLengths::kTableBits;
     const bool has_codes = table_bits == (has_palette_ ? palette_bits : 0) + LccLengths::kTableBits;
     if (csb_bits != status_bits_ || (!has_palette_ && !has_codes && table_bits != 0)) return false;
-    if (has_palette_ && !palette_.read(tables, entries_, kPixelBits)) return false;
+    if (has_palette_ && !palette_.read(tables, entries_, kLccPixelBits)) return false;
     LccLengths lengths = LccLengths::fixed();
     if (has_codes) lengths.read(tables);
-    return !tables.overran() && codes_.assign(lengths);
+    has_tables_ = !tables.overran() && codes_.assign(lengths);
+    return has_tables_;
   }
   bool decode(BitReader& csb, BitReader& payload, Block& out) const override {
     const auto status = static_cast<uint32_t>(csb.get(status_bits_));
-    if (csb.overran()) return false;
+    if (csb.overran() || !has_tables_) return false;
     if (status < kLccSolidColors) {
       if (!has_palette_ || status >= palette_.colors().size()) return false;
       out.pixels.fill(palette_.colors()[status]);
       return true;
     }
     if (status == kRawStatus) {
-      read_raw_block(payload, kPixelBits, out);
+      read_raw_block(payload, kLccPixelBits, out);
       return !payload.overran();
     }
     const uint64_t begin = payload.position();
@@ -166,7 +165,7 @@ class LccDecoder final : public BlockDecoder {
   bool read_first(BitReader& in, uint32_t& pixel) const {
     if (has_palette_ && in.get(1) != 0) return read_index(in, pixel);
     const bool opaque = in.get(1) != 0;
-    pixel = opaque ? kOpaque << 24 : 0;
+    pixel = opaque ? kLccOpaque << 24 : 0;
     for (uint32_t byte = 0; byte < (opaque ? 3 : 4); ++byte)
       pixel |= static_cast<uint32_t>(in.get(8)) << 8 * byte;
     return true;
@@ -238,6 +237,7 @@ class LccDecoder final : public BlockDecoder {
   }
 
   const uint32_t entries_, index_bits_, burst_bits_, status_bits_;
+  bool has_tables_ = false;  ///< those of the frame were taken; they may be the fixed ones
   bool has_palette_ = false;
   ColorTable palette_;
   LccCodes codes_;

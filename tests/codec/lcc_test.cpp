@@ -166,6 +166,23 @@ TEST(Lcc, DependsOnTheFramesOfItsHistoryAlone) {
   }
 }
 
+TEST(Lcc, BehindTablesThatAreRefusedBlocksAreRefusedToo) {
+  const auto decoder = find_scheme("lcc")->make_decoder(parsed("lcc"), traits(PixelFormat::kRgba8), {});
+  const std::vector<uint8_t> zeros(4096), marks{(64 + 1) << 1};
+  Block block;
+  const auto decodes = [&] {
+    BitReader csb(marks), payload(zeros);
+    return decoder->decode(csb, payload, block);
+  };
+  EXPECT_FALSE(decodes());
+  BitReader lengths(zeros);  // no code has a length of 0
+  EXPECT_FALSE(decoder->begin_frame(lengths, LccLengths::kTableBits, 7));
+  EXPECT_FALSE(decodes());
+  BitReader nothing(zeros);
+  EXPECT_FALSE(decoder->begin_frame(nothing, 5, 7));
+  EXPECT_FALSE(decodes());
+}
+
 TEST(Lcc, RefusesAPaletteOverFourKibibytes) {
   EXPECT_TRUE(parse_scheme("lcc:fvc=512"));
   const auto refused = parse_scheme("lcc:fvc=1024");
