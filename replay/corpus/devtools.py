@@ -20,20 +20,21 @@ START_SECONDS = 30
 REPLY_SECONDS = 60
 
 
-def _numbers(words, count):
+def numbers(words, count):
+    """The words of an event as numbers; ValueError unless there are `count`."""
     if len(words) != count:
         raise ValueError(f"takes {count} numbers")
     return [float(word) for word in words]
 
 
 def _swipe(words):
-    x, y, by_x, by_y, speed = _numbers(words, 5)
+    x, y, by_x, by_y, speed = numbers(words, 5)
     return "Input.synthesizeScrollGesture", {"x": x, "y": y, "xDistance": by_x, "yDistance": by_y, "speed": int(speed),
                                              "gestureSourceType": "mouse"}
 
 
 def _press(words):
-    x, y = _numbers(words, 2)
+    x, y = numbers(words, 2)
     return "Input.synthesizeTapGesture", {"x": x, "y": y, "gestureSourceType": "touch"}
 
 

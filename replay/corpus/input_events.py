@@ -17,19 +17,13 @@ STEP_SECONDS = 1 / 60
 TAP_SECONDS = 0.08
 
 
-def _numbers(words, count):
-    if len(words) != count:
-        raise ValueError(f"takes {count} numbers")
-    return [float(word) for word in words]
-
-
 def _tap(words):
-    x, y = _numbers(words, 2)
+    x, y = devtools.numbers(words, 2)
     return ["mousemove", f"{x:.0f}", f"{y:.0f}", "sleep", "0.05", "mousedown", "1", "sleep", str(TAP_SECONDS), "mouseup", "1"]
 
 
 def _drag(words):
-    x, y, to_x, to_y, seconds = _numbers(words, 5)
+    x, y, to_x, to_y, seconds = devtools.numbers(words, 5)
     steps = max(2, round(seconds / STEP_SECONDS / 2))
     commands = ["mousemove", f"{x:.0f}", f"{y:.0f}", "sleep", "0.05", "mousedown", "1"]
     for step in range(1, steps + 1):
@@ -41,13 +35,13 @@ def _drag(words):
 def _scroll(words):
     if len(words) != 4 or words[0] not in ("up", "down"):
         raise ValueError("takes up or down, X, Y and a count")
-    x, y, count = _numbers(words[1:], 3)
+    x, y, count = devtools.numbers(words[1:], 3)
     button = "4" if words[0] == "up" else "5"
     return ["mousemove", f"{x:.0f}", f"{y:.0f}", "click", "--repeat", f"{count:.0f}", "--delay", "50", button]
 
 
 def _move(words):
-    x, y = _numbers(words, 2)
+    x, y = devtools.numbers(words, 2)
     return ["mousemove", f"{x:.0f}", f"{y:.0f}"]
 
 
