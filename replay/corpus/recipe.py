@@ -1,4 +1,5 @@
 """Recipes: TOML files that say how a workload is recorded, and the check of their fields."""
+import difflib
 import re
 import tomllib
 from dataclasses import dataclass, field
@@ -78,11 +79,24 @@ def _fits(value, kind):
     return isinstance(value, kind) and not (kind is int and isinstance(value, bool))
 
 
+def _hint(word, known):
+    near = difflib.get_close_matches(word, known, 1)
+    return f"did you mean '{near[0]}'? " if near else ""
+
+
+def _at_line(text, fault):
+    """The fault, behind the line of the key that it says is unknown."""
+    key = re.search("unknown key '(.*?)'", fault)
+    found = key and re.search(rf"(?m)(?:^|[{{,])[ \t]*{re.escape(key[1])}[ \t]*=", text)
+    return f"line {text.count(chr(10), 0, found.end()) + 1}: {fault}" if found else fault
+
+
 def _field_faults(table, fields, where):
     faults = []
     for key, value in table.items():
         if key not in fields:
-            faults.append(f"{where}unknown key '{key}'")
+            hint = _hint(key, fields).strip()
+            faults.append(f"{where}unknown key '{key}'" + (f" ({hint})" if hint else ""))
         elif not _fits(value, fields[key]):
             faults.append(f"{where}{key} is not of type {fields[key].__name__}")
     return faults
@@ -155,13 +169,14 @@ def faults_of(table, stem):
 def read_recipe(path):
     """Raises Fault with a line per error."""
     try:
-        table = tomllib.loads(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        table = tomllib.loads(text)
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error).splitlines()[0]
         raise Fault(f"{path}: {reason}") from error
     faults = faults_of(table, path.stem)
     if faults:
-        raise Fault("\n".join(f"{path}: {fault}" for fault in faults))
+        raise Fault("\n".join(f"{path}: {_at_line(text, fault)}" for fault in faults))
     return Recipe(path=path, **table)
 
 
@@ -169,7 +184,7 @@ def read_recipes(folder, names, category):
     """The recipes that are asked for, in the order of their names. Returns recipes and fault lines."""
     recipes, faults = [], []
     paths = {path.stem: path for path in sorted(Path(folder).glob("*.toml"))}
-    faults += [f"{name}: no such recipe (see tilepress corpus list)" for name in names if name not in paths]
+    faults += [f"{name}: no such recipe ({_hint(name, paths)}see tilepress corpus list)" for name in names if name not in paths]
     for stem, path in paths.items():
         if names and stem not in names:
             continue

@@ -73,7 +73,7 @@ class Recipes(unittest.TestCase):
                 ("begins = 1", "begins = true", "begins is not of type float"),
                 ('licence = "MIT"', "", "licence is missing"),
                 ('licence = "MIT"', 'licence = " "', "licence is empty"),
-                ('licence = "MIT"', 'licence = "MIT"\nlicense = "MIT"', "unknown key 'license'"),
+                ('licence = "MIT"', 'licence = "MIT"\nlicense = "MIT"', "line 5: unknown key 'license' (did you mean 'licence'?)"),
                 ('packages = { nothing = "1" }', "packages = {}", "packages lists no package with its version"),
                 ('command = ["true"]', "command = []", "command is not a list of words"),
                 ('command = ["true"]', "", "neither command nor page"),
@@ -89,6 +89,10 @@ class Recipes(unittest.TestCase):
                 ("0.5 tap 1 2", "0.5 jump", "input 1: '0.5 jump': the second word is not one of " + ", ".join(input_events.ACTIONS)),
                 ("every = 2.0\n", "", "input 1: times without every")):
             self.assertEqual(self.faults(GOOD.replace(old, new)), [line])
+        self.assertEqual(self.faults(GOOD.replace("every =", "evry =")),
+                         ["line 13: input 1: unknown key 'evry' (did you mean 'every'?)"])
+        self.assertEqual(recipe.read_recipes(self.folder, ["goood"], "")[1],
+                         ["goood: no such recipe (did you mean 'good'? see tilepress corpus list)"])
         self.assertEqual(self.faults(GOOD, "other"), ["name 'good' differs from the file's name"])
         self.assertEqual(len(self.faults(GOOD.replace('"UI"', '"4D"').replace('"egl"', '"x"'))), 2)
 
