@@ -1,6 +1,8 @@
 // Common options: CLI11 options made from the table of run options.
 #include "common_options.h"
 
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tilepress/run_option_table.h"
@@ -79,6 +81,23 @@ void add_size_option(CLI::App& app, const std::string& name, std::optional<Frame
          },
          help)
       ->type_name("WxH");
+}
+
+void add_raw_format_option(CLI::App& app, PixelFormat& format) {
+  static constexpr std::pair<std::string_view, PixelFormat> kFormats[] = {
+      {"rgba", PixelFormat::kRgba8}, {"rgb565", PixelFormat::kRgb565}, {"rgb10a2", PixelFormat::kRgb10a2}};
+  app.add_option_function<std::string>(
+         "--format",
+         [&format](const std::string& text) {
+           for (const auto& [name, value] : kFormats)
+             if (name == text) {
+               format = value;
+               return;
+             }
+           throw CLI::ValidationError("--format " + text + ": not one of rgba, rgb565, rgb10a2");
+         },
+         "Pixel format of raw frames: rgba (.rgba files), rgb565 or rgb10a2 (default: rgba)")
+      ->type_name("NAME");
 }
 
 CLI::Option* add_frames_option(CLI::App& app, FrameSet& frames, const std::string& name,

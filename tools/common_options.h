@@ -34,6 +34,9 @@ void add_capture_options(CLI::App& app, RunOptions& options);
 void add_size_option(CLI::App& app, const std::string& name, std::optional<FrameSize>& size,
                      const std::string& help);
 
+/// Adds --format rgba|rgb565|rgb10a2, the pixel format of raw frames.
+void add_raw_format_option(CLI::App& app, PixelFormat& format);
+
 /// Adds --NAME RANGES, for verbs without a run's other options.
 CLI::Option* add_frames_option(CLI::App& app, FrameSet& frames, const std::string& name = "frames",
                                const std::string& help = "");

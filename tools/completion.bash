@@ -29,7 +29,7 @@ _tilepress() {
       case $verb in
         compare) mapfile -t COMPREPLY < <(compgen -W "text markdown csv" -- "$current") ;;
         export) mapfile -t COMPREPLY < <(compgen -W "gem5 jsonl" -- "$current") ;;
-        pack) mapfile -t COMPREPLY < <(compgen -W "rgba rgb565 rgb10a2" -- "$current") ;;
+        pack | vectors) mapfile -t COMPREPLY < <(compgen -W "rgba rgb565 rgb10a2" -- "$current") ;;
         unpack) mapfile -t COMPREPLY < <(compgen -W "png raw rgba" -- "$current") ;;
       esac
       return ;;

@@ -31,6 +31,7 @@ constexpr Verb kVerbs[] = {
     {"pack", "compress images into a file of compressed surfaces", verb_pack},
     {"unpack", "restore the images of a packed file, or read a part and count bursts", verb_unpack},
     {"compose", "compute the read bandwidth of several packed surfaces shown at once", verb_compose},
+    {"vectors", "write test vectors for hardware, block by block", verb_vectors},
     {"cost", "print storage, area, speed and energy of the DCP structures", verb_cost},
     {"top", "watch running captures", verb_top, OnSignal::kVerbsOwn},
     {"view", "show the last frame of a running capture in a window", verb_view, OnSignal::kVerbsOwn},

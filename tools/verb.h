@@ -32,6 +32,7 @@ int verb_study(int argc, char** argv);
 int verb_summary(int argc, char** argv);
 int verb_top(int argc, char** argv);
 int verb_unpack(int argc, char** argv);
+int verb_vectors(int argc, char** argv);
 int verb_view(int argc, char** argv);
 
 }  // namespace tilepress

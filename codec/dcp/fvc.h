@@ -46,6 +46,12 @@ class Fvc {
   bool valid(uint32_t slot) const { return counts_[slot] != 0; }
   uint32_t color(uint32_t slot) const { return colors_[slot]; }
   uint32_t count(uint32_t slot) const { return counts_[slot]; }
+  /// Returns the number of the sample, from 1, that hit or filled the slot last.
+  uint64_t last(uint32_t slot) const { return touched_[slot]; }
+  /// 1 = the next pixel enters, 2 = the pixel after it, ...
+  uint32_t until_sample() const { return until_sample_; }
+  /// The xorshift32 register of FvcPolicy::kRandom.
+  uint32_t random_register() const { return random_; }
   /// Returns the pixels that entered since reset().
   uint64_t samples() const { return samples_; }
   /// Returns the sum of all counts.

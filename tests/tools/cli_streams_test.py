@@ -31,6 +31,7 @@ RESULTS = {
     "pack": None,
     "unpack": [["--csv", "a.tpk"]],
     "compose": [["-q", "-o", "-", "a.tpk"]],
+    "vectors": None,
     "cost": [[], ["--json"]],
     "top": [["--interval", "0.05", "live"]],
     "view": None,
@@ -157,7 +158,8 @@ class Files(StreamsCase):
             self.skipTest("no right to mount a small disk")
         self.addCleanup(subprocess.run, ["umount", disk], check=True)
         writers = file_writers("disk/") + [["unpack", "-q", "--format", "raw", "-o", "disk", "a.tpk"],
-                                           ["unpack", "-q", "-o", "disk", "a.tpk"]]
+                                           ["unpack", "-q", "-o", "disk", "a.tpk"],
+                                           ["vectors", "-q", "-o", "disk/vectors", *IMAGES]]
         # The disk is full to the last byte; an empty file still finds room.
         with open(disk + "/filler", "wb") as filler:
             filler.write(bytes(4096))

@@ -11,7 +11,7 @@ TILEPRESS, TOOLS = sys.argv[1], Path(sys.argv[2])
 # Of every verb: told once.
 EVERYWHERE = {"--help", "--config"}
 # In the sections "OPTIONS OF SEVERAL VERBS", for the verbs named there.
-SHARED = {"run", "replay", "frames", "bench", "pack", "unpack", "compose", "view"}
+SHARED = {"run", "replay", "frames", "bench", "pack", "unpack", "compose", "vectors", "view"}
 faults = []
 
 

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <map>
 
 #include "command_line.h"
 #include "common_options.h"
@@ -110,9 +109,6 @@ int pack(const PackOptions& options) {
   return kExitDone;
 }
 
-const std::map<std::string, PixelFormat> kRawFormats = {
-    {"rgba", PixelFormat::kRgba8}, {"rgb565", PixelFormat::kRgb565}, {"rgb10a2", PixelFormat::kRgb10a2}};
-
 }  // namespace
 
 int verb_pack(int argc, char** argv) {
@@ -129,16 +125,7 @@ int verb_pack(int argc, char** argv) {
   add_run_option(app, options.run, "verify",
                  "Decode every block and compare it with the original; exit 1 if one differs");
   add_size_option(app, "size", options.size, "Size of raw frames");
-  app.add_option_function<std::string>(
-         "--format",
-         [&](const std::string& text) {
-           const auto found = kRawFormats.find(text);
-           if (found == kRawFormats.end())
-             throw CLI::ValidationError("--format " + text + ": not one of rgba, rgb565, rgb10a2");
-           options.raw_format = found->second;
-         },
-         "Pixel format of raw frames: rgba (.rgba files), rgb565 or rgb10a2 (default: rgba)")
-      ->type_name("NAME");
+  add_raw_format_option(app, options.raw_format);
   app.add_flag("--force", options.force, "Replace the file if it exists");
   app.add_flag("-q,--quiet", options.quiet, "Print no summary");
   if (auto status = parse_command_line(app, argc, argv)) return *status;
