@@ -17,6 +17,7 @@ echo "== find_package"
 cmake -S "$source/tests/codec/package" -B "$work/user" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
 cmake --build "$work/user" >/dev/null
 "$work/user/simulator"
+"$work/user/gem5_stream"
 
 echo "== pkg-config"
 export PKG_CONFIG_PATH="$prefix/lib/pkgconfig"

@@ -1,0 +1,2 @@
+// STUB, not gem5.
+#include "gem5_stubs.hh"
