@@ -5,7 +5,7 @@ _tilepress() {
   declare -gA _tilepress_known
   if ((COMP_CWORD == 1)) || [[ $verb == help ]]; then
     [[ -v _tilepress_known[verbs] ]] ||
-      _tilepress_known[verbs]="$("$command" help 2>/dev/null | sed -n '/^Verbs:/,/^$/s/^  \([a-z]*\) .*/\1/p')"
+      _tilepress_known[verbs]="$("$command" help 2>/dev/null | sed -n '/^Verbs:/,/^$/s/^  \([a-z-]*\) .*/\1/p')"
     mapfile -t COMPREPLY < <(compgen -W "${_tilepress_known[verbs]} --help --version" -- "$current")
     return
   fi

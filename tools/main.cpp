@@ -32,6 +32,7 @@ constexpr Verb kVerbs[] = {
     {"unpack", "restore the images of a packed file, or read a part and count bursts", verb_unpack},
     {"compose", "compute the read bandwidth of several packed surfaces shown at once", verb_compose},
     {"vectors", "write test vectors for hardware, block by block", verb_vectors},
+    {"memory-trace", "write the memory requests of a run for a DRAM simulator", verb_memory_trace},
     {"cost", "print storage, area, speed and energy of the DCP structures", verb_cost},
     {"top", "watch running captures", verb_top, OnSignal::kVerbsOwn},
     {"view", "show the last frame of a running capture in a window", verb_view, OnSignal::kVerbsOwn},
@@ -48,7 +49,7 @@ constexpr const char* kHeadText =
     "Verbs:\n";
 
 constexpr const char* kTailText =
-    "  help       show this, or with a verb: the verb's options\n"
+    "  help         show this, or with a verb: the verb's options\n"
     "\n"
     "Examples:\n"
     "  tilepress run -o out -- glmark2-es2 -b desktop        capture a program, all schemes\n"
@@ -69,7 +70,7 @@ const Verb* find_verb(const char* name) {
 
 int show_help() {
   std::fputs(kHeadText, stdout);
-  for (const Verb& verb : kVerbs) std::printf("  %-10s %s\n", verb.name, verb.synopsis);
+  for (const Verb& verb : kVerbs) std::printf("  %-12s %s\n", verb.name, verb.synopsis);
   std::fputs(kTailText, stdout);
   return kExitDone;
 }

@@ -23,6 +23,7 @@ int verb_export(int argc, char** argv);
 int verb_frames(int argc, char** argv);
 int verb_info(int argc, char** argv);
 int verb_report(int argc, char** argv);
+int verb_memory_trace(int argc, char** argv);
 int verb_pack(int argc, char** argv);
 int verb_record(int argc, char** argv);
 int verb_replay(int argc, char** argv);

@@ -19,7 +19,11 @@ struct SurfaceReader::State {
   Block kept;
   uint64_t kept_number = UINT64_MAX;
   uint32_t kept_bits = 0;
+  std::vector<MemoryFetch>* fetches = nullptr;
 
+  void note(SurfacePart part, uint64_t offset_bytes, uint64_t bursts) {
+    if (fetches != nullptr) fetches->push_back({part, offset_bytes, bursts});
+  }
   void fetch_csb(uint64_t number);
   bool load(uint64_t number);
 };
@@ -46,8 +50,10 @@ void SurfaceReader::State::fetch_csb(uint64_t number) {
     if (cache.touch(line)) continue;
     ++traffic.csb_misses;
     // The plane's last line may be shorter.
-    traffic.csb_bursts +=
+    const auto bursts =
         std::min<uint64_t>(options.csb_line_bursts, plane_bursts - line * options.csb_line_bursts);
+    traffic.csb_bursts += bursts;
+    note(SurfacePart::kCsb, line * line_bits / 8, bursts);
   }
 }
 
@@ -67,7 +73,9 @@ bool SurfaceReader::State::load(uint64_t number) {
   kept_number = number;
   kept_bits = static_cast<uint32_t>(payload.position());
   ++traffic.blocks;
-  traffic.payload_bursts += (kept_bits + surface->burst_bits - 1) / surface->burst_bits;
+  const uint64_t bursts = (kept_bits + surface->burst_bits - 1) / surface->burst_bits;
+  traffic.payload_bursts += bursts;
+  note(SurfacePart::kPayload, number * surface->slot_bytes(), bursts);
   traffic.raw_bursts += surface->raw_block_bursts();
   return true;
 }
@@ -79,7 +87,7 @@ SurfaceReader& SurfaceReader::operator=(SurfaceReader&&) noexcept = default;
 
 Result<void> SurfaceReader::open(const CompressedSurface& surface, const ReadOptions& options) {
   State& state = *state_;
-  state = State{};
+  state = State{.fetches = state.fetches};
   if (const auto checked = surface.consistent(); !checked) return checked;
   const SchemeInfo* info = find_scheme(surface.scheme.name);
   if (info == nullptr) return Error{ErrorKind::kBadBits, "unknown scheme '" + surface.scheme.name + "'"};
@@ -102,7 +110,12 @@ Result<void> SurfaceReader::open(const CompressedSurface& surface, const ReadOpt
   state.decoder = std::move(decoder);
   state.cache = CsbCache(options.csb_lines);
   state.traffic.table_bursts = (surface.table_bits + surface.burst_bits - 1) / surface.burst_bits;
+  if (surface.table_bits > 0) state.note(SurfacePart::kTables, 0, state.traffic.table_bursts);
   return {};
+}
+
+void SurfaceReader::note_fetches(std::vector<MemoryFetch>* fetches) {
+  state_->fetches = fetches;
 }
 
 bool SurfaceReader::read_block(uint32_t bx, uint32_t by, Block& out) {

@@ -11,7 +11,7 @@ TILEPRESS, TOOLS = sys.argv[1], Path(sys.argv[2])
 # Of every verb: told once.
 EVERYWHERE = {"--help", "--config"}
 # In the sections "OPTIONS OF SEVERAL VERBS", for the verbs named there.
-SHARED = {"run", "replay", "frames", "bench", "pack", "unpack", "compose", "vectors", "view"}
+SHARED = {"run", "replay", "frames", "bench", "pack", "unpack", "compose", "vectors", "view", "memory-trace"}
 faults = []
 
 
@@ -48,8 +48,8 @@ def complete(verb):
 
 def main():
     page = sections((TOOLS / "man/tilepress.1").read_text())
-    shared = page["OPTIONS OF SEVERAL VERBS"]
-    verbs = re.findall(r"^  ([a-z]+) ", help_of().split("Verbs:\n")[1].split("\n\n")[0], re.M)
+    shared = page["OPTIONS OF SEVERAL VERBS"] + page["MEMORY TRACES"]
+    verbs = re.findall(r"^  ([a-z-]+) ", help_of().split("Verbs:\n")[1].split("\n\n")[0], re.M)
     assert len(verbs) > 15 and "help" in verbs, verbs
     count = 0
     for verb in verbs:

@@ -129,8 +129,8 @@ Result<Launch> launch_program(const LaunchOptions& options, SessionFolder& sessi
   const auto child = run_child(options.program, *variables, options.seconds);
   if (!child) return child.error();
   for (const std::string& line : session.log_lines()) show(line + "\n");
-  Launch launch{*child, {}};
-  for (const CapturedProcess& process : session.captured())
+  Launch launch{*child, {}, session.captured()};
+  for (const CapturedProcess& process : launch.processes)
     close_and_add(process, *child, options.quiet, launch.found);
   return launch;
 }

@@ -34,6 +34,7 @@ struct Harvest {
 struct Launch {
   ChildEnd child;
   Harvest found;
+  std::vector<CapturedProcess> processes;  ///< that left a run folder
 };
 
 /// Runs the program once, writes the shim's messages and a summary of each run, and closes the runs. Error:

@@ -6,6 +6,7 @@
 #include "capture/replay_choices.h"
 #include "capture/replay_outcome.h"
 #include "capture/replay_tables.h"
+#include "capture/run_traces.h"
 #include "capture/shim_launch.h"
 #include "capture/trace_manifest.h"
 #include "command_line.h"
@@ -24,6 +25,7 @@ constexpr const char* kExamples =
     "  tilepress replay -o out -j 2 --resume traces/*.trace\n"
     "  tilepress replay -o out --manifest traces.toml --verify\n"
     "  tilepress replay -o out --manifest traces-llvmpipe.yml --trace-folder traces-db --category 'glmark2*=3D'\n"
+    "  tilepress replay -s vdcp --memory-trace {name}.csv.zst traces/*.trace\n"
     "  tilepress replay -s vdcp --frames 100-199 --display xvfb game.trace\n"
     "\n"
     "The run of each trace goes to DIR/<trace name>/. replay.csv and categories.csv in DIR hold the rates\n"
@@ -37,6 +39,7 @@ struct VerbOptions {
   std::vector<std::string> traces;
   std::string manifest, trace_folder;
   std::vector<std::string> categories;
+  MemoryTraceOptions trace;
   ProgressMode progress = ProgressMode::kAuto;
   unsigned jobs = 1;
   bool verbose = false, quiet = false;
@@ -61,6 +64,8 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
       ->check(CLI::Range(1u, 1024u));
   app.add_flag("--resume", replay.resume, "Keep the finished runs of a batch and replay the other traces");
   add_replay_choices(app, replay.retracer, replay.display, replay.timeout);
+  add_memory_trace_options(app, options.trace, std::string(kMemoryTraceHelp) + "; {name} in it stands for the name of a trace");
+  add_trace_refresh_option(app, options.trace);
   add_progress_option(app, options.progress);
   app.add_flag("-v,--verbose", options.verbose, "Explain each step");
   app.add_flag("-q,--quiet", options.quiet, "No table");
@@ -70,6 +75,7 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
   if (replay.run.output == "-") return fail(kExitUsage, "--output -: a replay needs a folder");
   if (replay.retracer == RetracerChoice::kGlx && replay.display == ReplayDisplay::kSurfaceless)
     return fail(kExitUsage, "--api glx needs an X server and does not go with --display surfaceless");
+  if (const auto asked = ask_for_trace(options.trace, replay.run); !asked) return fail_trace(asked.error());
   set_message_level(options.verbose ? "info" : replay.run.log_level);
   return std::nullopt;
 }
@@ -96,6 +102,15 @@ Result<std::vector<ReplayInput>> gather_inputs(const VerbOptions& options) {
   return inputs;
 }
 
+/// The runs of the replays that captured something.
+std::vector<LoggedRun> captured_runs(const ReplayBatch& batch) {
+  std::vector<LoggedRun> runs;
+  for (const auto& replay : batch.replays())
+    if (const std::string& path = replay->result().run.path; !path.empty())
+      runs.push_back({replay->input().name, path});
+  return runs;
+}
+
 }  // namespace
 
 int verb_replay(int argc, char** argv) {
@@ -103,6 +118,8 @@ int verb_replay(int argc, char** argv) {
   if (auto status = parse_options(argc, argv, options)) return *status;
   const auto inputs = gather_inputs(options);
   if (!inputs) return fail(kExitUsage, inputs.error());
+  if (const auto fits = check_trace_path(options.trace, inputs->size()); !fits)
+    return fail(kExitUsage, fits.error());
 
   TemporaryFolder links;
   const auto shim = preloadable_shim(false, links);
@@ -126,6 +143,8 @@ int verb_replay(int argc, char** argv) {
   } else {
     if (!options.quiet) show(rate_table(rate_rows(batch.replays()), "trace"));
     status = report_failures(batch);
+    if (!write_run_traces(captured_runs(batch), options.trace, false, options.quiet) && status == kExitDone)
+      status = kExitFailed;
   }
   std::error_code code;
   if (!std::filesystem::exists(output, code)) return status;

@@ -1,10 +1,13 @@
 // tilepress run: a program under the shim, its own input, output and exit status passed through.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "capture/nothing_captured.h"
 #include "capture/output_folder.h"
 #include "capture/overhead_rounds.h"
 #include "capture/program_launch.h"
+#include "capture/run_traces.h"
 #include "capture/shim_launch.h"
 #include "command_line.h"
 #include "common_options.h"
@@ -19,6 +22,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  tilepress run -o out -- glmark2-es2 -b desktop:duration=5\n"
     "  tilepress run -s vdcp -s vdcp:fvc=128,policy=2lfc -- glxgears\n"
+    "  tilepress run -s vdcp --memory-trace game.gem5.gz -- ./game\n"
     "  tilepress run --frames 100-199 --verify -- ./game --level 3\n"
     "  xvfb-run -a tilepress run -q -- glmark2\n"
     "  tilepress run --measure-overhead --seconds 10 -- glxgears\n"
@@ -29,6 +33,7 @@ constexpr const char* kExamples =
 
 struct RunVerbOptions {
   LaunchOptions launch;
+  MemoryTraceOptions trace;
   bool measure_overhead = false;
   unsigned rounds = 2;
 };
@@ -46,6 +51,9 @@ std::optional<int> parse_options(int argc, char** argv, RunVerbOptions& options)
   app.add_flag("-q,--quiet", launch.quiet, "No summary");
   app.add_flag("--measure-overhead", options.measure_overhead,
                "Run the program with and without capture, compare frame times, write DIR/overhead.csv");
+  add_memory_trace_options(app, options.trace, kMemoryTraceHelp);
+  add_trace_refresh_option(app, options.trace);
+  app.get_option("--memory-trace")->excludes("--measure-overhead");
   app.add_option("--rounds", options.rounds, "With --measure-overhead: runs of each kind (default: 2)")
       ->type_name("N")
       ->check(CLI::Range(1, 100));
@@ -55,8 +63,17 @@ std::optional<int> parse_options(int argc, char** argv, RunVerbOptions& options)
       ->check(CLI::Range(0.1, 86400.0));
   if (auto status = parse_launch_line(app, argc, argv, launch.program)) return status;
   if (launch.run.output == "-") return fail(kExitUsage, "--output -: standard output is the program's");
+  if (const auto asked = ask_for_trace(options.trace, launch.run); !asked) return fail_trace(asked.error(), kExitLauncherFailed);
   set_message_level(launch.run.log_level);
   return std::nullopt;
+}
+
+/// The runs of the program's processes, named as their folders.
+std::vector<LoggedRun> captured_runs(const std::vector<CapturedProcess>& processes) {
+  std::vector<LoggedRun> runs;
+  for (const CapturedProcess& process : processes)
+    runs.push_back({std::filesystem::path(process.run_path).filename().string(), process.run_path});
+  return runs;
 }
 
 }  // namespace
@@ -82,8 +99,9 @@ int verb_run(int argc, char** argv) {
   const auto done = launch_program(launch, session);
   if (!done) return fail(start_status(done.error()), done.error());
   const Harvest& found = done->found;
+  const bool traced = write_run_traces(captured_runs(done->processes), options.trace, true, launch.quiet);
   if (const int status = done->child.own_status(); status != 0) return status;
-  if (found.failed) return kExitLauncherFailed;
+  if (found.failed || !traced) return kExitLauncherFailed;
   if (found.captured == 0) return report_nothing_captured(launch, session, found.seen, *program);
   if (found.mismatched_blocks > 0)
     return fail(kExitFailed,

@@ -67,10 +67,11 @@ class Visibility {
   std::vector<Box> covers_;
 };
 
-Result<LayerTraffic> read_layer(const CompressedSurface& surface, const ReadOptions& options,
+Result<LayerTraffic> read_layer(const CompressedSurface& surface, const CompositionOptions& options,
                                 const Visibility& visibility) {
   LayerTraffic out;
   SurfaceReader reader;
+  if (options.note_fetches) reader.note_fetches(&out.fetches);
   bool open = false;
   Block block;
   for (uint32_t by = 0; by < surface.blocks_y(); ++by)
@@ -78,7 +79,7 @@ Result<LayerTraffic> read_layer(const CompressedSurface& surface, const ReadOpti
       if (!visibility.is_visible(bx, by, out)) continue;
       // A surface without a visible block needs not even its tables.
       if (!open)
-        if (const auto opened = reader.open(surface, options); !opened) return opened.error();
+        if (const auto opened = reader.open(surface, options.read); !opened) return opened.error();
       open = true;
       if (!reader.read_block(bx, by, block)) return Error{ErrorKind::kBadBits, "bits that no encoder writes"};
     }
@@ -92,9 +93,9 @@ Result<std::vector<LayerTraffic>> read_composition(const std::vector<Layer>& lay
                                                    const CompositionOptions& options) {
   std::vector<LayerTraffic> out;
   for (size_t i = 0; i < layers.size(); ++i) {
-    const auto read = read_layer(layers[i].surface, options.read, Visibility(layers, i, options));
+    auto read = read_layer(layers[i].surface, options, Visibility(layers, i, options));
     if (!read) return about("surface " + std::to_string(i), read.error());
-    out.push_back(*read);
+    out.push_back(std::move(*read));
   }
   return out;
 }

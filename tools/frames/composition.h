@@ -29,11 +29,13 @@ struct LayerTraffic {
   ReadTraffic traffic;
   uint64_t hidden_blocks = 0;   ///< not read: all their pixels on the screen are below an opaque surface
   uint64_t outside_blocks = 0;  ///< not read: they have no pixel on the screen
+  std::vector<MemoryFetch> fetches;  ///< in their order, if the options ask for them
 };
 
 struct CompositionOptions {
   uint32_t width = 0, height = 0;  ///< screen, pixels
   bool skip_hidden = false;
+  bool note_fetches = false;
   ReadOptions read;  ///< each surface has an rCCD and a CSB cache of its own
 };
 

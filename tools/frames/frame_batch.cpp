@@ -10,8 +10,8 @@
 #include <optional>
 #include <thread>
 
+#include "frames/frame_notes.h"
 #include "frames/stop_watch.h"
-#include "tilepress/frame_pictures.h"
 
 namespace tilepress {
 namespace {
@@ -24,12 +24,13 @@ constexpr std::chrono::milliseconds kStopPeriod{20};
 class FrameBatch {
  public:
   FrameBatch(const ImageFrames& images, const std::vector<uint64_t>& numbers, const RunOptions& options,
-             const std::string& pictures_path, uint32_t jobs, const std::atomic<int>& stop)
+             const std::string& pictures_path, const BlockLog& block_log, uint32_t jobs, const std::atomic<int>& stop)
       : stop_(stop),
         images_(images),
         numbers_(numbers),
         options_(options),
         pictures_path_(pictures_path),
+        block_log_(block_log),
         range_(std::clamp<size_t>((numbers.size() + jobs - 1) / jobs, 1, kLongestRange)),
         ranges_((numbers.size() + range_ - 1) / range_) {}
 
@@ -45,7 +46,11 @@ class FrameBatch {
 
  private:
   struct Range {
-    std::deque<FrameStatistics> ready;
+    struct Frame {
+      FrameStatistics statistics;
+      std::string log_record;
+    };
+    std::deque<Frame> ready;
     std::optional<Result<void>> end;  ///< set once no frame follows
   };
 
@@ -57,17 +62,16 @@ class FrameBatch {
         if (stop_ != 0) return false;
       if (range.ready.empty() && !*range.end) return range.end->error();
       if (range.ready.empty()) return true;
-      const FrameStatistics statistics = std::move(range.ready.front());
+      const Range::Frame frame = std::move(range.ready.front());
       range.ready.pop_front();
       lock.unlock();
-      const auto delivered = deliver(statistics);
+      const auto delivered = deliver(frame.statistics, frame.log_record);
       if (!delivered || !*delivered) return delivered;
     }
   }
 
   void work() {
-    Worker worker{images_.another(), {}, {}, {}};
-    if (!pictures_path_.empty()) worker.pictures.open(pictures_path_, options_);
+    Worker worker{images_.another(), {}, {}, FrameNotes(options_, pictures_path_, block_log_)};
     for (size_t r; !stopping_ && (r = next_range_++) < ranges_.size();) {
       const auto end = run_range(worker, r);
       const std::lock_guard lock(mutex_);
@@ -81,7 +85,7 @@ class FrameBatch {
     ImageFrames images;
     ImageFrame frame;
     FrameStatistics statistics;
-    FramePictures pictures;
+    FrameNotes notes;
   };
 
   Result<void> run_range(Worker& worker, size_t r) {
@@ -89,19 +93,20 @@ class FrameBatch {
     const size_t begin = r * range_, end = std::min(begin + range_, numbers_.size());
     for (uint64_t ordinal : engine.history(begin, worker.images.format())) {
       if (stopping_) return {};
-      if (const auto done = run_frame(worker, engine, ordinal, false); !done) return done;
+      if (const auto done = run_frame(worker, engine, ordinal, false); !done) return done.error();
     }
     for (size_t ordinal = begin; ordinal < end && !stopping_; ++ordinal) {
-      if (const auto done = run_frame(worker, engine, ordinal, true); !done) return done;
+      auto record = run_frame(worker, engine, ordinal, true);
+      if (!record) return record.error();
       const std::lock_guard lock(mutex_);
-      ranges_[r].ready.push_back(worker.statistics);
+      ranges_[r].ready.push_back({worker.statistics, std::move(*record)});
       changed_.notify_all();
     }
     return {};
   }
 
-  /// `wanted`: false for a frame that only brings the engine up to date.
-  Result<void> run_frame(Worker& worker, SurfaceEngine& engine, uint64_t ordinal, bool wanted) {
+  /// Returns the record for the block log. `wanted`: false for a frame that only brings the engine up to date.
+  Result<std::string> run_frame(Worker& worker, SurfaceEngine& engine, uint64_t ordinal, bool wanted) {
     FrameStatistics& statistics = worker.statistics;
     const uint64_t number = numbers_[ordinal];
     statistics.time_ns = clock_.nanoseconds();
@@ -113,9 +118,10 @@ class FrameBatch {
     statistics.frame = number;
     statistics.readback_ns = worker.frame.decode_ns;
     engine.seek(ordinal);
-    engine.note_block_bits(wanted ? worker.pictures.bits_for(number) : nullptr);
+    if (wanted) return worker.notes.process(engine, view, statistics);
+    engine.note_block_bits(nullptr);
     engine.process(view, statistics);
-    return wanted ? worker.pictures.write(statistics, view) : Result<void>();
+    return std::string();
   }
 
   const std::atomic<int>& stop_;
@@ -123,6 +129,7 @@ class FrameBatch {
   const std::vector<uint64_t>& numbers_;
   const RunOptions& options_;
   const std::string& pictures_path_;
+  const BlockLog& block_log_;
   const size_t range_;
   const StopWatch clock_;
   std::atomic<size_t> next_range_ = 0;
@@ -135,10 +142,11 @@ class FrameBatch {
 }  // namespace
 
 Result<bool> run_frame_batch(const ImageFrames& images, const std::vector<uint64_t>& numbers,
-                             const RunOptions& options, const std::string& pictures_path, uint32_t jobs,
-                             const std::atomic<int>& stop, const DeliverFrame& deliver) {
+                             const RunOptions& options, const std::string& pictures_path,
+                             const BlockLog& block_log, uint32_t jobs, const std::atomic<int>& stop,
+                             const DeliverFrame& deliver) {
   jobs = std::max(1u, jobs);
-  return FrameBatch(images, numbers, options, pictures_path, jobs, stop).run(jobs, deliver);
+  return FrameBatch(images, numbers, options, pictures_path, block_log, jobs, stop).run(jobs, deliver);
 }
 
 }  // namespace tilepress

@@ -6,12 +6,13 @@
 #include <cstdio>
 
 #include "frames/frame_batch.h"
+#include "frames/frame_notes.h"
 #include "frames/stop_watch.h"
 #include "frames/verify_error.h"
+#include "memory_trace/frame_trace.h"
 #include "streams/ending_signals.h"
 #include "streams/messages.h"
 #include "streams/standard_streams.h"
-#include "tilepress/frame_pictures.h"
 #include "tilepress/scheme.h"
 #include "tilepress/statistics_rows.h"
 
@@ -26,7 +27,7 @@ Result<void> RowSink::open(const RunOptions& options, const RunInfo& info, bool 
   for (const SchemeSpec& spec : options.schemes) scheme_names_.push_back(spec.text);
   if (options.output == "-") return print(schemes_csv_header());
   if (force)
-    for (const char* name : {"/frames.csv", "/schemes.csv", "/run.json"})
+    for (const char* name : {"/frames.csv", "/schemes.csv", "/run.json", "/blocks.log"})
       unlink((options.output + name).c_str());
   const auto created = writer_.create(options.output, info, options);
   if (!created && created.error().kind == ErrorKind::kExists)
@@ -59,7 +60,10 @@ FramesRun::FramesRun(ImageFrames& images, const FramesOptions& options)
 Result<void> FramesRun::open(const RunInfo& info) {
   if (!options_.cdf_path.empty())
     if (const auto opened = cdf_.open(options_.cdf_path, options_.force); !opened) return opened;
-  return sink_.open(options_.run, info, options_.force);
+  if (const auto opened = sink_.open(options_.run, info, options_.force); !opened) return opened;
+  if (!options_.run.block_log.empty() && options_.to_stdout())
+    if (const auto made = log_folder_.create(); !made) return made;
+  return block_log_.create(log_folder(), options_.run);
 }
 
 Result<bool> FramesRun::process() {
@@ -69,7 +73,8 @@ Result<bool> FramesRun::process() {
 }
 
 /// Writes the rows of a frame and adds the frame to the sums.
-Result<void> FramesRun::take(const FrameStatistics& statistics) {
+Result<void> FramesRun::take(const FrameStatistics& statistics, const std::string& log_record) {
+  if (const auto logged = block_log_.append(log_record); !logged) return logged;
   ++record_.counts.seen;
   ++record_.counts.captured;
   if (const auto appended = sink_.append(statistics); !appended) return appended;
@@ -84,10 +89,20 @@ Result<void> FramesRun::take(const FrameStatistics& statistics) {
   return {};
 }
 
+Result<void> FramesRun::write_memory_trace() {
+  if (!block_log_.is_open()) return {};
+  const auto frames = open_logged_frames(log_folder() + "/" + std::string(kBlockLogName), false);
+  if (!frames) return frames.error();
+  const auto written = write_frame_trace(options_.trace.path, options_.trace, **frames,
+                                         options_.quiet ? ProgressMode::kNever : options_.progress);
+  if (!written) return written.error();
+  if (!options_.quiet) show(*written);
+  return {};
+}
+
 Result<bool> FramesRun::process_stream() {
   SurfaceEngine engine(options_.run.schemes, options_.run.model);
-  FramePictures pictures;
-  if (!options_.to_stdout()) pictures.open(options_.run.output, options_.run);
+  FrameNotes notes(options_.run, options_.to_stdout() ? "" : options_.run.output, block_log_);
   const StopWatch clock;
   FrameStatistics statistics;
   ImageFrame frame;
@@ -105,12 +120,11 @@ Result<bool> FramesRun::process_stream() {
     statistics.time_ns = clock.nanoseconds();
     statistics.readback_ns = frame.decode_ns;
     const SurfaceView view = images_.view(frame);
-    engine.note_block_bits(pictures.bits_for(number));
-    engine.process(view, statistics);
-    if (const auto written = pictures.write(statistics, view); !written) return written.error();
+    const auto record = notes.process(engine, view, statistics);
+    if (!record) return record.error();
     if (options_.wants_cdf(number))
       if (const auto appended = cdf_.append(statistics, view); !appended) return appended.error();
-    if (const auto taken = take(statistics); !taken) return taken.error();
+    if (const auto taken = take(statistics, *record); !taken) return taken.error();
     if (noted_signal() != 0) return false;
     progress_.show(number + 1, {});
   }
@@ -124,8 +138,8 @@ Result<bool> FramesRun::process_batch() {
   record_.counts.skipped = record_.counts.seen = *images_.count() - numbers.size();
   ImageFrames cdf_images = images_.another();
   ImageFrame cdf_frame;
-  const auto deliver = [&](const FrameStatistics& statistics) -> Result<bool> {
-    if (const auto taken = take(statistics); !taken) return taken.error();
+  const auto deliver = [&](const FrameStatistics& statistics, const std::string& record) -> Result<bool> {
+    if (const auto taken = take(statistics, record); !taken) return taken.error();
     if (options_.wants_cdf(statistics.frame)) {
       // The batch keeps no pixels: these few frames are decoded a second time.
       const auto read = cdf_images.read(statistics.frame, cdf_frame);
@@ -137,7 +151,7 @@ Result<bool> FramesRun::process_batch() {
     return noted_signal() == 0 || record_.counts.captured == numbers.size();
   };
   return run_frame_batch(images_, numbers, options_.run, options_.to_stdout() ? "" : options_.run.output,
-                         options_.jobs, noted_signal(), deliver);
+                         block_log_, options_.jobs, noted_signal(), deliver);
 }
 
 }  // namespace tilepress

@@ -7,7 +7,10 @@
 
 #include "frames/cdf_file.h"
 #include "frames/image_frames.h"
+#include "memory_trace/trace_options.h"
 #include "progress_line.h"
+#include "temporary_folder.h"
+#include "tilepress/block_log.h"
 #include "tilepress/run_directory.h"
 #include "tilepress/run_reader.h"
 
@@ -22,6 +25,7 @@ struct FramesOptions {
   uint32_t jobs = 1;
   std::string cdf_path;  ///< empty: no CDF file
   FrameSet cdf_frames;
+  MemoryTraceOptions trace;
   bool force = false;
   bool quiet = false;
   bool wants_cdf(uint64_t frame) const { return !cdf_path.empty() && cdf_frames.contains(frame); }
@@ -57,6 +61,8 @@ class FramesRun {
   Result<void> finish(const std::string& state, const std::string& reason) {
     return sink_.finish(record_.counts, state, reason);
   }
+  /// Writes the memory trace of a closed run, if the options want one.
+  Result<void> write_memory_trace();
   /// Sums and counts for the summary.
   const RunRecord& record() const { return record_; }
   /// The last mismatch that --verify found.
@@ -65,13 +71,17 @@ class FramesRun {
  private:
   Result<bool> process_stream();
   Result<bool> process_batch();
-  Result<void> take(const FrameStatistics& statistics);
+  std::string log_folder() const { return options_.to_stdout() ? log_folder_.path() : options_.run.output; }
+  /// `log_record`: of block_log_; empty without one.
+  Result<void> take(const FrameStatistics& statistics, const std::string& log_record);
 
   ImageFrames& images_;
   const FramesOptions& options_;
   ProgressLine progress_;
   RowSink sink_;
   CdfFile cdf_;
+  BlockLog block_log_;
+  TemporaryFolder log_folder_;  ///< of block_log_, if the rows go to standard output
   RunRecord record_;
   std::optional<Error> mismatch_;
 };

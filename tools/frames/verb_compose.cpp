@@ -6,6 +6,7 @@
 #include "command_line.h"
 #include "common_options.h"
 #include "counted.h"
+#include "frames/composed_trace.h"
 #include "frames/composition.h"
 #include "frames/frame_size.h"
 #include "frames/packed_reader.h"
@@ -19,6 +20,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  tilepress compose desktop.tpk bar.tpk --at 0,0 --at 0,1240 -o reads.csv\n"
     "  tilepress compose --skip-hidden --refresh 120 back.tpk window.tpk -o - | head\n"
+    "  tilepress compose desktop.tpk bar.tpk --memory-trace reads.dramsim3\n"
     "\n"
     "Name the surfaces from the bottom up. A file with fewer frames goes on showing its last one.\n";
 
@@ -30,6 +32,7 @@ struct ComposeOptions {
   FrameSet frames;
   double refresh_hz = 60;
   std::string output;
+  MemoryTraceOptions trace;
   bool force = false;
   bool quiet = false;
 };
@@ -84,10 +87,11 @@ FrameSize reach_of(const std::vector<Layer>& layers) {
   return reach;
 }
 
-/// Composes every wanted frame, and writes its rows to `out` if that is open. Fills `composition.width` and
+/// Composes every wanted frame, writes its rows to `out` if that is open, and its reads to `trace` unless that is
+/// null. Fills `composition.width` and
 /// `height`. Returns the number of frames composed.
 Result<uint64_t> compose_frames(ComposeOptions& options, const PackedFiles& files, std::vector<Layer>& layers,
-                                OutputFile& out, ComposedSummary& summary) {
+                                OutputFile& out, ComposedTrace* trace, ComposedSummary& summary) {
   const uint64_t count = frame_count(files);
   uint64_t taken = 0;
   for (uint64_t frame = 0; frame < count; ++frame) {
@@ -100,6 +104,8 @@ Result<uint64_t> compose_frames(ComposeOptions& options, const PackedFiles& file
     }
     const auto reads = read_composition(layers, options.composition);
     if (!reads) return reads.error();
+    if (trace != nullptr)
+      if (const auto added = trace->add(frame, layers, *reads); !added) return added.error();
     for (size_t i = 0; i < layers.size() && out.is_open(); ++i)
       out.write(composed_csv_row(frame, i, files[i]->path, layers[i], (*reads)[i]));
     // DCP stores frame 0 raw: the sums leave it out, unless there is no other frame.
@@ -121,17 +127,28 @@ int compose(ComposeOptions& options) {
       return fail(kExitFailed, opened.error());
     out.write(composed_csv_header());
   }
+  ComposedTrace trace;
+  const bool traced = !options.trace.path.empty();
+  if (traced)
+    if (const auto opened = trace.open(options.trace, *files, options.refresh_hz); !opened)
+      return fail_trace(opened.error());
+  options.composition.note_fetches = traced;
   ComposedSummary summary;
   summary.files = options.files;
   summary.totals.resize(layers.size());
   summary.refresh_hz = options.refresh_hz;
-  const auto taken = compose_frames(options, *files, layers, out, summary);
+  const auto taken = compose_frames(options, *files, layers, out, traced ? &trace : nullptr, summary);
   if (!taken) return fail(kExitFailed, taken.error());
   if (*taken == 0)
     return fail(kExitNothingCaptured,
                 "--frames selects none of the frames 0.." + std::to_string(frame_count(*files) - 1));
   if (out.is_open())
     if (const auto done = out.commit(); !done) return fail(kExitFailed, done.error());
+  if (traced) {
+    const auto written = trace.finish();
+    if (!written) return fail(kExitFailed, written.error());
+    if (!options.quiet) show(*written);
+  }
   summary.without_first = summary.frames < *taken;
   if (!options.quiet && summary.frames > 0) show(composed_table(summary, options.composition));
   return kExitDone;
@@ -171,7 +188,8 @@ int verb_compose(int argc, char** argv) {
   app.add_option("-o,--output", options.output,
                  "CSV file, a row per frame and surface; - for standard output")
       ->type_name("FILE");
-  app.add_flag("--force", options.force, "Replace the CSV file if it exists");
+  add_memory_trace_options(app, options.trace, kMemoryTraceHelp);
+  app.add_flag("--force", options.force, "Replace the files if they exist");
   app.add_flag("-q,--quiet", options.quiet, "Print no table");
   if (auto status = parse_command_line(app, argc, argv)) return *status;
   if (options.files.size() > kMaxLayers)
@@ -180,6 +198,9 @@ int verb_compose(int argc, char** argv) {
   if (options.places.size() > options.files.size())
     return fail(kExitUsage, "--at: given " + counted(options.places.size(), "time") + " for " +
                                 counted(options.files.size(), "file"));
+  options.trace.force = options.force;
+  if (!options.trace.path.empty())
+    if (const auto settled = settle_trace_options(options.trace); !settled) return fail_trace(settled.error());
   return compose(options);
 }
 

@@ -19,6 +19,7 @@ constexpr const char* kExamples =
     "  tilepress frames -o out shots/*.png\n"
     "  tilepress frames -s vdcp -s ras:ycocg=1 --verify -o out shots/*.png\n"
     "  tilepress frames --size 720x1280 -o - frame-*.rgba > schemes.csv\n"
+    "  tilepress frames -s vdcp --memory-trace shots.gem5.gz -o out shots/*.png\n"
     "  ffmpeg -i clip.mkv -f rawvideo -pix_fmt rgba - | tilepress frames --size 640x360 -o out -\n";
 
 /// Removes dumped frames that have no rows. Threads write pixels before the rows of earlier frames.
@@ -74,6 +75,7 @@ int end_run(Result<void> done, const FramesOptions& options, FramesRun& run) {
     show(summary_table(record, "frames"));
     if (!options.to_stdout()) show("  rows: " + options.run.output + "/schemes.csv and frames.csv\n");
   }
+  if (done && record.counts.captured > 0) done = run.write_memory_trace();
   if (!done) return fail(kExitFailed, done.error());
   if (record.counts.captured > 0) return kExitDone;
   return fail(kExitNothingCaptured,
@@ -95,9 +97,14 @@ std::optional<int> parse(int argc, char** argv, FramesOptions& options) {
       ->check(CLI::Range(1, 1024));
   add_progress_option(app, options.progress);
   add_cdf_options(app, options.cdf_path, options.cdf_frames);
+  add_memory_trace_options(app, options.trace, kMemoryTraceHelp);
+  add_trace_refresh_option(app, options.trace);
   app.add_flag("--force", options.force, "Replace the run in the folder");
   app.add_flag("-q,--quiet", options.quiet, "Print no progress and no summary");
-  return parse_command_line(app, argc, argv);
+  if (const auto status = parse_command_line(app, argc, argv)) return status;
+  options.trace.force = options.force;
+  if (const auto asked = ask_for_trace(options.trace, options.run); !asked) return fail_trace(asked.error());
+  return std::nullopt;
 }
 
 }  // namespace

@@ -29,6 +29,16 @@ struct ReadTraffic {
   ReadTraffic& operator+=(const ReadTraffic& other);
 };
 
+/// The parts of a surface in memory, one after another.
+enum class SurfacePart : uint8_t { kPayload, kCsb, kTables };
+
+/// One access of the reader to memory: neighbouring bursts.
+struct MemoryFetch {
+  SurfacePart part;
+  uint64_t offset_bytes;  ///< in that part; of payload from the first slot
+  uint64_t bursts;        ///< 0: a block that fills none
+};
+
 /// Pixels [x, x + width) × [y, y + height) of a surface.
 struct PixelRect {
   uint32_t x = 0, y = 0, width = 0, height = 0;
@@ -55,6 +65,10 @@ class SurfaceReader {
   /// Reads the pixel words of a rectangle inside the surface, row by row without gaps. Fetches each block of
   /// the rectangle once, in raster order.
   bool read_rect(const PixelRect& rect, std::vector<uint32_t>& out);
+
+  /// Also appends each access to `fetches`, from the next open() on; null ends that. `fetches` must outlive its
+  /// use.
+  void note_fetches(std::vector<MemoryFetch>* fetches);
 
   const ReadTraffic& traffic() const;
   /// Sets the counts to zero. The cache keeps its lines.

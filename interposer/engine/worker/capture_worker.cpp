@@ -123,6 +123,8 @@ Result<void> CaptureWorker::create_directory() {
   write_session_mark(path, info_.pid);
   if (Result<void> made = writer_.create(path, info_, options_); !made) return made;
   if (Result<void> made = tables_.create(path); !made) return made;
+  if (Result<void> made = block_log_.create(path, options_); !made) return made;
+  if (block_log_.wants_data()) stored_.resize(options_.schemes.size());
   pictures_.open(path, options_);
   live_.open(path, info_, options_);
   if (LivePage* page = live_.page()) {
@@ -140,9 +142,9 @@ CaptureWorker::Surface* CaptureWorker::known_surface(const CapturedFrame& frame)
 
 Result<void> CaptureWorker::process(const CapturedFrame& frame) {
   Surface* surface = known_surface(frame);
-  // The first frame of a surface allocates its memory: always on this thread, or it would come from two
-  // heaps.
-  const bool may_yield = options_.on_full == OnFull::kBlock && surface != nullptr;
+  // The first frame of a surface, and stored surfaces, allocate memory: always on this thread, or it would come
+  // from two heaps.
+  const bool may_yield = options_.on_full == OnFull::kBlock && surface != nullptr && stored_.empty();
   if (surface == nullptr) {
     if (Result<void> done = tables_.append_surface(frame); !done) return done;
     for (const std::string& line : unsupported_schemes(options_.schemes, frame.view.format))
@@ -158,10 +160,13 @@ Result<void> CaptureWorker::process(const CapturedFrame& frame) {
   statistics_.readback_ns = frame.readback_ns;
   BlockBits* bits = pictures_.bits_for(frame.frame);
   const bool watched = frame.role == SurfaceRole::kPresented && live_.picture_wanted();
-  if (watched && bits == nullptr) bits = &watched_bits_;
+  if ((watched || block_log_.is_open()) && bits == nullptr) bits = &block_bits_;
   surface->engine.note_block_bits(bits);
-  surface->engine.begin(frame.view, statistics_);
+  surface->engine.begin(frame.view, statistics_, stored_);
   compress(surface->engine, may_yield);
+  if (block_log_.is_open())
+    if (Result<void> done = block_log_.append(block_log_.record(statistics_, *bits, stored_)); !done)
+      return done;
   if (Result<void> done = pictures_.write(statistics_, frame.view); !done) return done;
   if (Result<void> done = tables_.append_present(frame); !done) return done;
   if (Result<void> done = writer_.append(statistics_); !done) return done;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "interposer/engine/shim_log.h"
 #include "interposer/engine/worker/capture_counts.h"
@@ -14,6 +15,8 @@
 #include "interposer/engine/worker/run_tables.h"
 #include "interposer/engine/worker/surviving_task.h"
 #include "interposer/engine/worker/yielding_thread.h"
+#include "tilepress/block_log.h"
+#include "tilepress/compressed_surface.h"
 #include "tilepress/frame_pictures.h"
 #include "tilepress/live_page.h"
 #include "tilepress/live_picture.h"
@@ -71,7 +74,9 @@ class CaptureWorker {
   FramePictures pictures_;
   LiveWriter live_;
   LivePictureWriter live_picture_;
-  BlockBits watched_bits_;                ///< for live_picture_, if no heat map is due
+  BlockLog block_log_;
+  BlockBits block_bits_;                  ///< for live_picture_ and block_log_, if no heat map is due
+  std::vector<CompressedSurface> stored_;  ///< one per scheme if block_log_ wants data
   std::map<uint32_t, Surface> surfaces_;  ///< by window
   FrameStatistics statistics_;
   WorkerPace pace_;

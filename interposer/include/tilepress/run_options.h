@@ -33,6 +33,8 @@ struct RunOptions {
   uint64_t every = 1;              ///< of those, every n-th frame number (frame % every == 0)
   uint64_t heatmaps_every = 0;     ///< a heat map of every n-th frame number; 0 = none
   uint64_t dump_frames_every = 0;  ///< the pixels of every n-th frame number; 0 = none
+  std::string block_log;           ///< full text of the scheme whose blocks the run logs (block_log.h); empty = none
+  bool block_log_data = false;     ///< the log holds payload, CSB and tables too
   OnFull on_full = OnFull::kBlock;
   uint32_t queue_frames = 3;  ///< frames that may wait for the worker: a crash loses as many; 1..64
   Readback readback = Readback::kAuto;
