@@ -87,7 +87,9 @@ SurfaceReader& SurfaceReader::operator=(SurfaceReader&&) noexcept = default;
 
 Result<void> SurfaceReader::open(const CompressedSurface& surface, const ReadOptions& options) {
   State& state = *state_;
-  state = State{.fetches = state.fetches};
+  std::vector<MemoryFetch>* const fetches = state.fetches;
+  state = State{};
+  state.fetches = fetches;
   if (const auto checked = surface.consistent(); !checked) return checked;
   const SchemeInfo* info = find_scheme(surface.scheme.name);
   if (info == nullptr) return Error{ErrorKind::kBadBits, "unknown scheme '" + surface.scheme.name + "'"};

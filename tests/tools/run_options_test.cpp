@@ -136,6 +136,8 @@ const std::map<std::string_view, Samples>& samples() {
       {"dump-frames", {{"every:30"}, {"every:x", "all"}}},
       {"on-full", {{"block", "drop"}, {"wait", ""}}},
       {"queue", {{"1", "64"}, {"0", "65"}}},
+      {"block-log", {{"", "vdcp:fvc=16"}, {}}},
+      {"block-log-data", {{"1", "0"}, {"2", "maybe"}}},
       {"readback", {{"auto", "sync", "async", "in-context"}, {"pbo", ""}}},
       {"trigger", {{"finish", "finish,flush,readpixels"}, {"swap", "finish,", ","}}},
       {"targets", {{"presented", "all"}, {"none", ""}}},
