@@ -1,6 +1,8 @@
 // Registry: the schemes in the order users see them.
 #include "registry.h"
 
+#include "plugin/plugin_table.h"
+
 namespace tilepress {
 namespace {
 
@@ -51,6 +53,10 @@ Result<void> register_scheme(const SchemeInfo& info) {
   if (info.columns.size() + info.added_columns.size() > kOwnCounts) return fail("more than 4 columns");
   schemes().push_back(info);
   return {};
+}
+
+void forget_newest_scheme() {
+  schemes().pop_back();
 }
 
 }  // namespace tilepress

@@ -25,7 +25,7 @@ struct SurfaceReader::State {
     if (fetches != nullptr) fetches->push_back({part, offset_bytes, bursts});
   }
   void fetch_csb(uint64_t number);
-  bool load(uint64_t number);
+  bool load(uint32_t bx, uint32_t by);
 };
 
 ReadTraffic& ReadTraffic::operator+=(const ReadTraffic& other) {
@@ -57,7 +57,8 @@ void SurfaceReader::State::fetch_csb(uint64_t number) {
   }
 }
 
-bool SurfaceReader::State::load(uint64_t number) {
+bool SurfaceReader::State::load(uint32_t bx, uint32_t by) {
+  const uint64_t number = uint64_t{by} * surface->blocks_x() + bx;
   if (number == kept_number) return true;
   kept_number = UINT64_MAX;
   fetch_csb(number);
@@ -69,7 +70,7 @@ bool SurfaceReader::State::load(uint64_t number) {
     __builtin_prefetch(&surface->payload[(number + 2) * surface->slot_bytes()]);
   BitReader payload(
       std::span(surface->payload).subspan(number * surface->slot_bytes(), surface->slot_bytes()));
-  if (!decoder->decode(csb, payload, kept)) return false;
+  if (!decoder->decode_at(bx, by, csb, payload, kept)) return false;
   kept_number = number;
   kept_bits = static_cast<uint32_t>(payload.position());
   ++traffic.blocks;
@@ -123,7 +124,7 @@ void SurfaceReader::note_fetches(std::vector<MemoryFetch>* fetches) {
 bool SurfaceReader::read_block(uint32_t bx, uint32_t by, Block& out) {
   const CompressedSurface* surface = state_->surface;
   if (surface == nullptr || bx >= surface->blocks_x() || by >= surface->blocks_y()) return false;
-  if (!state_->load(uint64_t{by} * surface->blocks_x() + bx)) return false;
+  if (!state_->load(bx, by)) return false;
   out = state_->kept;
   return true;
 }
@@ -131,7 +132,7 @@ bool SurfaceReader::read_block(uint32_t bx, uint32_t by, Block& out) {
 bool SurfaceReader::read_pixel(uint32_t x, uint32_t y, uint32_t& out) {
   const CompressedSurface* surface = state_->surface;
   if (surface == nullptr || x >= surface->width || y >= surface->height) return false;
-  if (!state_->load(uint64_t{y / kBlockSide} * surface->blocks_x() + x / kBlockSide)) return false;
+  if (!state_->load(x / kBlockSide, y / kBlockSide)) return false;
   out = state_->kept.pixels[y % kBlockSide * kBlockSide + x % kBlockSide];
   return true;
 }
@@ -145,7 +146,7 @@ bool SurfaceReader::read_rect(const PixelRect& rect, std::vector<uint32_t>& out)
   const uint32_t right = rect.x + rect.width, bottom = rect.y + rect.height;
   for (uint32_t by = rect.y / kBlockSide; by * kBlockSide < bottom; ++by)
     for (uint32_t bx = rect.x / kBlockSide; bx * kBlockSide < right; ++bx) {
-      if (!state_->load(uint64_t{by} * surface->blocks_x() + bx)) return false;
+      if (!state_->load(bx, by)) return false;
       const uint32_t x_begin = std::max(rect.x, bx * kBlockSide);
       const uint32_t x_end = std::min(right, (bx + 1) * kBlockSide);
       const uint32_t y_end = std::min(bottom, (by + 1) * kBlockSide);
