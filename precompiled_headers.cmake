@@ -1,0 +1,43 @@
+# Headers that many files include, compiled once for each set of flags. The release build goes without: there each file
+# must include what it uses.
+option(TILEPRESS_PRECOMPILE "Precompile the headers that many files include" OFF)
+set(TILEPRESS_COMMON_HEADERS <algorithm> <array> <bit> <cstdint> <cstring> <memory> <optional> <span> <string> <utility>
+    <vector>)
+
+# tilepress_header_set(NAME [LIBRARIES library...] [OPTIONS option...] [HEADERS header...]): precompiles the common
+# headers and these headers, with the flags of the libraries and these options.
+function(tilepress_header_set name)
+  cmake_parse_arguments(set "" "" "LIBRARIES;OPTIONS;HEADERS" ${ARGN})
+  if(NOT TILEPRESS_PRECOMPILE OR TARGET tilepress_headers_${name})
+    return()
+  endif()
+  file(TOUCH ${PROJECT_BINARY_DIR}/precompiled.cpp)
+  add_library(tilepress_headers_${name} OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
+  target_compile_options(tilepress_headers_${name} PRIVATE ${set_OPTIONS})
+  target_link_libraries(tilepress_headers_${name} PRIVATE tilepress_warnings ${set_LIBRARIES})
+  target_precompile_headers(tilepress_headers_${name} PRIVATE ${TILEPRESS_COMMON_HEADERS} ${set_HEADERS})
+endfunction()
+
+# Compiles the targets with the precompiled headers of a set. Their flags must be those of the set.
+function(tilepress_use_headers name)
+  if(TARGET tilepress_headers_${name})
+    foreach(target ${ARGN})
+      target_precompile_headers(${target} REUSE_FROM tilepress_headers_${name})
+    endforeach()
+  endif()
+endfunction()
+
+tilepress_header_set(sanitized LIBRARIES tilepress_sanitizers)
+if(NOT TILEPRESS_CODEC_ONLY)
+  tilepress_header_set(plain)
+  find_package(fmt REQUIRED)
+  tilepress_header_set(quick LIBRARIES tilepress_sanitizers tilepress_quick_compile fmt::fmt
+                       HEADERS <cmath> <filesystem> <fmt/format.h> <fstream> <map>)
+endif()
+if(TILEPRESS_TESTS)
+  find_package(GTest REQUIRED)
+  tilepress_header_set(tests LIBRARIES tilepress_sanitizers GTest::gtest HEADERS <gtest/gtest.h>)
+  tilepress_header_set(quick_tests LIBRARIES tilepress_sanitizers tilepress_quick_compile GTest::gtest
+                       HEADERS <gtest/gtest.h>)
+  tilepress_header_set(race_tests LIBRARIES GTest::gtest OPTIONS -fsanitize=thread HEADERS <gtest/gtest.h>)
+endif()
