@@ -7,6 +7,7 @@
 #include <charconv>
 #include <optional>
 
+#include "tilepress/nearest_word.h"
 #include "tilepress/scheme.h"
 
 namespace tilepress {
@@ -47,11 +48,7 @@ std::string rule_of(const SchemeKey& key) {
     case KeyKind::kChoice:
       break;
   }
-  const auto choices = choices_of(key);
-  std::string text;
-  for (size_t i = 0; i < choices.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + std::string(choices[i]);
-  return text;
+  return listed_words(choices_of(key));
 }
 
 }  // namespace
@@ -91,7 +88,8 @@ Result<SchemeValue> parse_value(const SchemeKey& key, const std::string& text, S
   if (key.kind == KeyKind::kChoice) {
     const auto choices = choices_of(key);
     const auto at = std::find(choices.begin(), choices.end(), text);
-    return at != choices.end() ? Result<SchemeValue>(static_cast<uint32_t>(at - choices.begin())) : fault;
+    if (at != choices.end()) return SchemeValue(static_cast<uint32_t>(at - choices.begin()));
+    return Error{fault.kind, fault.text + nearest_hint(text, choices)};
   }
   if (key.kind == KeyKind::kFile) {
     if (files == SchemeFiles::kLeave)
@@ -109,16 +107,36 @@ Result<SchemeValue> parse_value(const SchemeKey& key, const std::string& text, S
   return value;
 }
 
+std::vector<std::string_view> key_names(const SchemeInfo& info) {
+  std::vector<std::string_view> names;
+  for (const SchemeKey& key : info.keys) names.emplace_back(key.name);
+  return names;
+}
+
+/// "vdcp takes fvc, policy and ways"
+std::string keys_text(const SchemeInfo& info) {
+  const auto names = key_names(info);
+  return std::string(info.name) + " takes " + (names.empty() ? "no key" : listed_words(names, " and "));
+}
+
+Error unknown_scheme(const std::string& name) {
+  std::vector<std::string_view> known;
+  for (const SchemeInfo& scheme : scheme_registry()) known.emplace_back(scheme.name);
+  const std::string list =
+      nearest_word(name, known).empty() ? "there are " + listed_words(known, " and ") : std::string();
+  return {ErrorKind::kBadValue, "unknown scheme '" + name + "'" + nearest_hint(name, known, list)};
+}
+
 /// Parses one `key=value` into `spec` and adds the key to `given`.
 Result<void> parse_item(std::string_view item, const SchemeInfo& info, SchemeFiles files, SchemeSpec& spec,
                         std::vector<std::string_view>& given) {
   const auto fail = [](std::string text) { return Error{ErrorKind::kBadValue, std::move(text)}; };
   const size_t equals = item.find('=');
-  if (equals == std::string_view::npos) return fail(std::string("'").append(item) + "' is not key=value");
+  if (equals == std::string_view::npos) return fail(std::string("'").append(item) + "' is not key=value (" + keys_text(info) + ")");
   const std::string key(item.substr(0, equals)), text(item.substr(equals + 1));
   const auto at = std::find_if(info.keys.begin(), info.keys.end(),
                                [&](const SchemeKey& known) { return key == known.name; });
-  if (at == info.keys.end()) return fail("unknown key '" + key + "'");
+  if (at == info.keys.end()) return fail("unknown key '" + key + "'" + nearest_hint(key, key_names(info), keys_text(info)));
   auto value = parse_value(*at, text, files);
   if (!value) return Error{value.error().kind, key + "=" + text + ": " + value.error().text};
   if (std::find(given.begin(), given.end(), key) != given.end()) return fail("key '" + key + "' given twice");
@@ -157,12 +175,7 @@ Result<SchemeSpec> parse_scheme(std::string_view text, SchemeFiles files) {
     return Error{kind, "scheme '" + spec.text + "': " + reason};
   };
   const SchemeInfo* info = find_scheme(spec.name);
-  if (info == nullptr) {
-    std::string known;
-    for (const SchemeInfo& scheme : scheme_registry())
-      known += std::string(known.empty() ? "" : ", ") + scheme.name;
-    return fail(ErrorKind::kBadValue, "unknown scheme '" + spec.name + "' (there are " + known + ")");
-  }
+  if (info == nullptr) return fail(ErrorKind::kBadValue, unknown_scheme(spec.name).text);
   for (const SchemeKey& key : info->keys) spec.values.emplace_back(key.name, initial_value(key));
   const std::string_view items = colon == std::string_view::npos ? "" : text.substr(colon + 1);
   if (colon != std::string_view::npos && items.empty())

@@ -10,6 +10,7 @@
 
 #include "tilepress/block.h"
 #include "tilepress/dram_presets.h"
+#include "tilepress/nearest_word.h"
 
 namespace tilepress {
 namespace {
@@ -20,6 +21,17 @@ std::string_view shown(std::string_view value) {
 
 Result<void> refuse(const RunOption& option, std::string_view value) {
   return about(shown(value), {ErrorKind::kBadValue, "must be " + std::string(option.range)});
+}
+
+/// The error for a word that is none of the names of `choices`.
+template <class Choices>
+Result<void> refuse_word(const RunOption& option, std::string_view value, std::string_view word,
+                         const Choices& choices) {
+  std::vector<std::string_view> names;
+  for (const auto& choice : choices) names.push_back(choice.name);
+  Error error = refuse(option, value).error();
+  error.text += nearest_hint(word, names);
+  return error;
 }
 
 // Below, `member` maps options, const or not, to a reference to one of their members.
@@ -106,7 +118,7 @@ constexpr OptionText kChoice = {
         member(options) = choice.value;
         return {};
       }
-      return refuse(option, value);
+      return refuse_word(option, value, value, choices);
     },
     [](const RunOptions& options) {
       for (const auto& choice : choices)
@@ -119,7 +131,7 @@ Result<void> set_triggers(const RunOption& option, RunOptions& options, std::str
   for (const auto& part : std::views::split(value, ',')) {
     const std::string_view word(part.begin(), part.end());
     const auto* found = std::ranges::find(kTriggers, word, &Choice<Trigger>::name);
-    if (found == std::end(kTriggers)) return refuse(option, value);
+    if (found == std::end(kTriggers)) return refuse_word(option, value, word, kTriggers);
     triggers |= found->value;
   }
   options.triggers = triggers;
@@ -167,7 +179,7 @@ std::string print_schemes(const RunOptions& options) {
 /// The preset sets the burst.
 Result<void> set_dram(const RunOption& option, RunOptions& options, std::string_view value) {
   const auto* found = std::ranges::find(kDramPresets, value, &DramPreset::name);
-  if (found == std::end(kDramPresets)) return refuse(option, value);
+  if (found == std::end(kDramPresets)) return refuse_word(option, value, value, kDramPresets);
   options.dram = value;
   options.model.burst_bits = found->burst_bits;
   return {};
@@ -248,7 +260,8 @@ constexpr RunOption kOptions[] = {
     {.name = "every", .variable = "TILEPRESS_EVERY", .range = "a number in 1..4294967295",
      .text = kCount<TP_MEMBER(every), 1, kMaxPeriod>,
      .json = {JsonForm::kNumber, "every"}, .rows = RowsEffect::kAssigned,
-     .flags = "--every", .metavar = "N", .help = "Only every N-th frame"},
+     .flags = "--every", .metavar = "N", .help = "Only every N-th frame. Palettes and other tables come from the last captured frame, so rates "
+             "differ from those of the same frames in a whole run"},
     {.name = "heatmaps", .variable = "TILEPRESS_HEATMAPS", .range = "every:N",
      .text = kPeriod<TP_MEMBER(heatmaps_every)>,
      .flags = "--heatmaps", .metavar = "every:N",

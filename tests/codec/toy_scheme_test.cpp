@@ -34,7 +34,7 @@ TEST(ToyScheme, BringsItsKeysWithItsRanges) {
   EXPECT_EQ(parse_scheme("toy:rows=3")->number("rows"), 3u);
   EXPECT_EQ(parse_scheme("toy:rows=9").error().text,
             "scheme 'toy:rows=9': rows=9: must be a whole number from 1 to 8");
-  EXPECT_EQ(parse_scheme("toy:fvc=64").error().text, "scheme 'toy:fvc=64': unknown key 'fvc'");
+  EXPECT_EQ(parse_scheme("toy:fvc=64").error().text, "scheme 'toy:fvc=64': unknown key 'fvc' (toy takes rows)");
 }
 
 TEST(ToyScheme, RunsBesideOtherSchemesAndIsVerified) {
