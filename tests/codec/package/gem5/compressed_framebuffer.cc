@@ -30,6 +30,7 @@ struct CompressedFramebuffer::State {
     Block block;
   };
   SurfaceReader reader{};
+  std::vector<MemoryFetch> fetches{};
   bool open = false;
   uint32_t row = 0;  ///< of blocks, that `blocks` holds
   std::vector<RowBlock> blocks{};
@@ -38,7 +39,7 @@ struct CompressedFramebuffer::State {
   void write_block(uint64_t number, const Write& write) const;
   void write_part(uint64_t base, std::vector<uint8_t> bytes, const Write& write) const;
   const Block* fetched(uint32_t bx, uint32_t by, const Fetch& fetch);
-  void fetch_block(uint64_t number, const ReadTraffic& before, const Fetch& fetch) const;
+  void pass_fetches(const Fetch& fetch);
 };
 
 CompressedFramebuffer::CompressedFramebuffer(const FramebufferSettings& settings)
@@ -149,33 +150,27 @@ bool CompressedFramebuffer::read(uint64_t offset, uint8_t* out, size_t size, con
 
 const Block* CompressedFramebuffer::State::fetched(uint32_t bx, uint32_t by, const Fetch& fetch) {
   if (!open) {
+    reader.note_fetches(&fetches);
     if (!reader.open(surface, ReadOptions{})) return nullptr;
-    for (uint64_t at = 0; at * 8 < surface.table_bits; at += settings.burst_bytes) fetch(tables_base + at);
     open = true;
   }
   if (row != by) blocks.assign(blocks.size(), {});
   row = by;
   RowBlock& kept = blocks[bx];
-  if (kept.valid) return &kept.block;
-  const ReadTraffic before = reader.traffic();
-  kept.valid = reader.read_block(bx, by, kept.block);
-  fetch_block(uint64_t{by} * blocks.size() + bx, before, fetch);
+  if (!kept.valid) kept.valid = reader.read_block(bx, by, kept.block);
+  pass_fetches(fetch);
   return kept.valid ? &kept.block : nullptr;
 }
 
-/// Turns what the reader counted into addresses.
-void CompressedFramebuffer::State::fetch_block(uint64_t number, const ReadTraffic& before,
-                                               const Fetch& fetch) const {
-  const ReadTraffic& now = reader.traffic();
-  const uint64_t line_bytes = uint64_t{ReadOptions{}.csb_line_bursts} * settings.burst_bytes;
-  const uint64_t lines =
-      now.csb_misses - before.csb_misses;  // they end with the line of the entry's last bit
-  const uint64_t first =
-      lines == 0 ? 0 : ((number + 1) * surface.csb_bits - 1) / (line_bytes * 8) + 1 - lines;
-  for (uint64_t i = 0; i < now.csb_bursts - before.csb_bursts; ++i)
-    fetch(csb_base + first * line_bytes + i * settings.burst_bytes);
-  for (uint64_t i = 0; i < now.payload_bursts - before.payload_bursts; ++i)
-    fetch(settings.dram_base + number * surface.slot_bytes() + i * settings.burst_bytes);
+/// Passes on what the reader fetched: tables, lines of CSB, payload.
+void CompressedFramebuffer::State::pass_fetches(const Fetch& fetch) {
+  for (const MemoryFetch& run : fetches) {
+    const uint64_t base = run.part == SurfacePart::kPayload ? settings.dram_base
+                          : run.part == SurfacePart::kCsb   ? csb_base
+                                                            : tables_base;
+    for (uint64_t i = 0; i < run.bursts; ++i) fetch(base + run.offset_bytes + i * settings.burst_bytes);
+  }
+  fetches.clear();
 }
 
 }  // namespace simulator
