@@ -53,6 +53,7 @@ void add_frame_options(CLI::App& app, RunOptions& options) {
 }
 
 void add_model_options(CLI::App& app, RunOptions& options, const std::string& scheme_help) {
+  add_run_option(app, options, "plugin");  // the values are taken in this order
   add_run_option(app, options, "scheme", scheme_help);
   add_frame_options(app, options);
 }

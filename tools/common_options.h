@@ -21,7 +21,7 @@ void add_run_option(CLI::App& app, RunOptions& options, std::string_view name, c
 /// Adds --tile, --burst or --dram, --frames and --every.
 void add_frame_options(CLI::App& app, RunOptions& options);
 
-/// Adds -s/--scheme and the options of add_frame_options().
+/// Adds --plugin, -s/--scheme and the options of add_frame_options().
 void add_model_options(CLI::App& app, RunOptions& options, const std::string& scheme_help = "");
 
 /// Adds -o/--output, the model options, --verify, --heatmaps, --dump-frames and --log-level.

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "command_line.h"
+#include "common_options.h"
 #include "dram_text.h"
 #include "tilepress/scheme.h"
 #include "verb.h"
@@ -94,6 +95,8 @@ void print_presets_json() {
 int verb_schemes(int argc, char** argv) {
   CLI::App app("Lists the schemes, their sources and their keys.");
   bool json = false, dram = false;
+  RunOptions run;
+  add_run_option(app, run, "plugin", "Also list the schemes of this shared library; repeat for more");
   app.add_flag("--json", json, "Print JSON");
   app.add_flag("--dram", dram, "Print the DRAM presets instead: burst, width, data rate and source");
   if (auto status = parse_command_line(app, argc, argv)) return *status;

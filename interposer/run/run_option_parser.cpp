@@ -1,8 +1,10 @@
 // Run option parser: walks over the table of options.
 #include "tilepress/run_options.h"
 
+#include <algorithm>
 #include <cstdlib>
 
+#include "tilepress/plugin_library.h"
 #include "tilepress/run_option_table.h"
 
 namespace tilepress {
@@ -47,6 +49,9 @@ std::string rows_fingerprint(const RunOptions& options) {
     if (option.rows != RowsEffect::kValue) out.append(option.name) += '=';
     out += value;
   }
+  for (const PluginLibrary& library : loaded_plugins())
+    if (std::ranges::any_of(options.schemes, [&](const auto& spec) { return library.brought(spec.name); }))
+      out += " plugin=" + library.digest;
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "tilepress/block.h"
 #include "tilepress/dram_presets.h"
 #include "tilepress/nearest_word.h"
+#include "tilepress/plugin_library.h"
 
 namespace tilepress {
 namespace {
@@ -145,6 +146,24 @@ std::string print_triggers(const RunOptions& options) {
   return list;
 }
 
+/// Loads the libraries of a list with colons into the process. A name with a colon cannot be in it.
+Result<void> set_plugins(const RunOption&, RunOptions&, std::string_view value) {
+  for (const auto& word : std::views::split(value, ':')) {
+    const std::string path(word.begin(), word.end());
+    if (path.empty()) continue;
+    if (const auto loaded = load_plugin(path); !loaded)
+      return about(path, {ErrorKind::kBadValue, loaded.error().text});
+  }
+  return {};
+}
+
+std::string print_plugins(const RunOptions&) {
+  std::string list;
+  for (const PluginLibrary& library : loaded_plugins())
+    list.append(list.empty() ? "" : ":").append(library.path);
+  return list;
+}
+
 Result<void> set_schemes(const RunOption& option, RunOptions& options, std::string_view value) {
   std::vector<SchemeSpec> schemes;
   for (const auto& word : std::views::split(value, ' ')) {
@@ -224,6 +243,12 @@ constexpr RunOption kOptions[] = {
     {.name = "output", .variable = "TILEPRESS_OUT", .range = "a folder",
      .text = kText<TP_MEMBER(output), false>,
      .flags = "-o,--output", .metavar = "DIR", .help = "Folder for the results"},
+    // Before the schemes, which it may bring.
+    {.name = "plugin", .variable = "TILEPRESS_PLUGIN", .range = "a shared library",
+     .text = {set_plugins, print_plugins},
+     .json = {JsonForm::kText, "plugin"},
+     .flags = "--plugin", .metavar = "FILE", .joint = ':',
+     .help = "Shared library with further schemes for -s; repeat for more (see codec/plugin/README.md)"},
     {.name = "scheme", .variable = "TILEPRESS_SCHEME", .range = "a scheme; see tilepress schemes",
      .text = {set_schemes, print_schemes},
      .json = {JsonForm::kList, "schemes"}, .rows = RowsEffect::kValue,

@@ -124,6 +124,7 @@ const std::map<std::string_view, Samples>& samples() {
       {"log-level", {{"trace", "off"}, {"loud", ""}}},
       {"log-file", {{"/tmp/l"}, {}}},
       {"output", {{"/a b"}, {""}}},
+      {"plugin", {{""}, {"/no/such.so", "/", ":/no/such.so"}}},
       {"scheme", {{"dcp", "vdcp:fvc=128 ras"}, {"", "zip", "dcp zip", "vdcp:fvc=999999"}}},
       {"tile", {{"8", "4096"}, {"0", "12", "4104", "x"}}},
       {"burst", {{"16", "2048"}, {"8", "100", "4096", ""}}},

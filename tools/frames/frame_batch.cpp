@@ -12,6 +12,7 @@
 
 #include "frames/frame_notes.h"
 #include "frames/stop_watch.h"
+#include "tilepress/plugin_scheme.h"
 
 namespace tilepress {
 namespace {
@@ -73,7 +74,7 @@ class FrameBatch {
   void work() {
     Worker worker{images_.another(), {}, {}, FrameNotes(options_, pictures_path_, block_log_)};
     for (size_t r; !stopping_ && (r = next_range_++) < ranges_.size();) {
-      const auto end = run_range(worker, r);
+      const auto end = catch_plugin_fault([&] { return run_range(worker, r); });
       const std::lock_guard lock(mutex_);
       ranges_[r].end = end;
       changed_.notify_all();

@@ -13,6 +13,7 @@
 #include "streams/ending_signals.h"
 #include "streams/messages.h"
 #include "streams/standard_streams.h"
+#include "tilepress/plugin_scheme.h"
 #include "tilepress/scheme.h"
 #include "tilepress/statistics_rows.h"
 
@@ -69,7 +70,7 @@ Result<void> FramesRun::open(const RunInfo& info) {
 Result<bool> FramesRun::process() {
   for (const std::string& line : unsupported_schemes(options_.run.schemes, images_.format()))
     say(MessageLevel::kWarning, line);
-  return images_.streamed() ? process_stream() : process_batch();
+  return images_.streamed() ? catch_plugin_fault([this] { return process_stream(); }) : process_batch();
 }
 
 /// Writes the rows of a frame and adds the frame to the sums.

@@ -177,6 +177,8 @@ int verb_compose(int argc, char** argv) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);
+  RunOptions run;
+  add_run_option(app, run, "plugin", "Shared library with the scheme of a file; repeat for more");
   add_size_option(app, "screen", options.screen, "Size of the screen (default: it holds all surfaces)");
   app.add_flag("--skip-hidden", options.composition.skip_hidden,
                "Do not read blocks that surfaces without alpha hide");

@@ -175,6 +175,8 @@ int verb_unpack(int argc, char** argv) {
                  "png, or raw: the pixels as memory holds them; rgba is the same as raw (default: png)")
       ->type_name("NAME")
       ->check(CLI::IsMember({"png", "raw", "rgba"}));
+  RunOptions run;
+  add_run_option(app, run, "plugin", "Shared library with the file's scheme; repeat for more");
   add_frames_option(app, options.frames);
   app.add_option("--frame", options.frame, "Only this frame of the file, from 0")->type_name("N");
   app.add_option_function<std::string>(

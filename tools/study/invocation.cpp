@@ -21,6 +21,8 @@ nlohmann::ordered_json to_json(const StudyOptions& options) {
   json["trace_folder"] = options.trace_folder;
   json["categories"] = options.categories;
   for (const char* name : kRunOptions) json["options"][name] = find_run_option(name)->text.print(options.run);
+  if (const auto plugins = find_run_option("plugin")->text.print(options.run); !plugins.empty())
+    json["options"]["plugin"] = plugins;
   json["chunk"] = options.chunk;
   json["bounds"] = options.bounds;
   json["cache"] = options.render.cache_folder;
@@ -65,6 +67,9 @@ Result<StudyOptions> load_invocation(const std::string& folder) {
   const auto json = nlohmann::json::parse(*text, nullptr, false);
   try {
     StudyOptions options = from_json(json);
+    const std::string plugins = json.at("options").value("plugin", "");
+    if (const auto loaded = set_run_option(options.run, "plugin", plugins); !loaded)
+      return about(path, loaded.error());
     options.study = folder + "/study.toml";
     options.folder = folder;
     return options;

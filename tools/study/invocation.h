@@ -11,7 +11,8 @@ namespace tilepress {
 /// itself (jobs, shard, progress) is left out, so that every shard writes the same bytes.
 Result<void> store_invocation(const StudyOptions& options, const std::string& study_text);
 
-/// Reads them back. `study` becomes DIR/study.toml. Error: DIR holds no study.
+/// Reads them back and loads the plugins. `study` becomes DIR/study.toml. Error: DIR holds no study, or a plugin
+/// cannot be loaded.
 Result<StudyOptions> load_invocation(const std::string& folder);
 
 }  // namespace tilepress

@@ -8,6 +8,7 @@
 #include "study/configuration.h"
 #include "study/study_assets.h"
 #include "study/text_file.h"
+#include "tilepress/plugin_library.h"
 #include "tilepress/run_options.h"
 #include "toml_text.h"
 
@@ -83,13 +84,30 @@ Result<void> for_each_table(const toml::table& root, std::string_view name, cons
   return {};
 }
 
+/// Loads the libraries of the key `plugins`, relative to `folder`. The study.toml of a study folder may name some
+/// that lie elsewhere: its invocation.json has loaded these.
+Result<void> load_plugins(const toml::table& root, const std::filesystem::path& folder) {
+  const toml::node* node = root.get("plugins");
+  if (node == nullptr) return {};
+  const auto names = words(*node);
+  if (!names) return about("plugins", names.error());
+  const bool stored = std::filesystem::exists(folder / "invocation.json");
+  for (const std::string& name : *names) {
+    const std::string path = std::filesystem::absolute(folder / name).lexically_normal().string();
+    if (stored && !std::filesystem::exists(path)) continue;
+    if (const auto loaded = load_plugin(path); !loaded)
+      return at_line(*node, "plugin " + path + ": " + loaded.error().text);
+  }
+  return {};
+}
+
 class StudyParser {
  public:
   Result<StudyFile> parse(const toml::table& root) {
     std::vector<std::string> listed, bursts;
     const TableKeys keys{{{"name", &study_.name}, {"title", &study_.title}, {"baseline", &study_.baseline}},
                          {{"configurations", &listed}, {"inputs", &study_.inputs}, {"bursts", &bursts}},
-                         {"category", "axis", "figure"}};
+                         {"plugins", "category", "axis", "figure"}};
     Result<void> done = take_table(root, keys);
     if (done) done = take_name(root);
     for (size_t i = 0; done && i < bursts.size(); ++i) done = take_burst(*root.get("bursts"), bursts[i]);
@@ -211,12 +229,17 @@ class StudyParser {
 
 }  // namespace
 
-Result<StudyFile> parse_study(std::string_view text) {
+static Result<StudyFile> parse_study_in(const std::filesystem::path& folder, std::string_view text) {
   const auto table = parse_toml([&] { return toml::parse(text); });
   if (!table) return table.error();
+  if (const auto loaded = load_plugins(*table, folder); !loaded) return loaded.error();
   auto study = StudyParser().parse(*table);
   if (study) study->text = text;
   return study;
+}
+
+Result<StudyFile> parse_study(std::string_view text) {
+  return parse_study_in("", text);
 }
 
 std::string built_in_study(std::string_view name) {
@@ -232,9 +255,9 @@ Result<StudyFile> load_study(const std::string& name) {
   const std::string built_in = built_in_study(name);
   const auto text = built_in.empty() ? read_text_file(name) : Result<std::string>(built_in);
   if (!text) return text.error();
-  auto study = parse_study(*text);
-  if (!study) return about(name, study.error());
   const auto folder = std::filesystem::path(name).parent_path();
+  auto study = parse_study_in(folder, *text);
+  if (!study) return about(name, study.error());
   for (std::string& input : study->inputs) input = (folder / input).lexically_normal().string();
   return study;
 }

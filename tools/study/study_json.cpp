@@ -7,6 +7,7 @@
 
 #include "study/result_store.h"
 #include "study/task_state.h"
+#include "tilepress/plugin_library.h"
 #include "tilepress/run_option_table.h"
 
 namespace tilepress {
@@ -22,6 +23,8 @@ Json options_json(const RunOptions& run) {
   Json out = {{"tile", run.model.tile_side}, {"burst", run.model.burst_bits}};
   out["frames"] = run.frames.text();
   out["every"] = run.every;
+  for (const PluginLibrary& library : loaded_plugins())
+    out["plugins"].push_back({{"path", library.path}, {"digest", library.digest}});
   return out;
 }
 

@@ -13,6 +13,7 @@
 #include "study/result_store.h"
 #include "study/task_state.h"
 #include "study/text_file.h"
+#include "tilepress/plugin_scheme.h"
 
 namespace tilepress {
 namespace {
@@ -122,8 +123,9 @@ Result<TaskOutcome> run_task(const StudyPlan& plan, const StudyTask& task, const
   if (!missing.any()) return outcome;
 
   const auto begin = std::chrono::steady_clock::now();
-  const auto modelled =
-      model_and_store(files, missing, prepared.open, run_options_of(task, options), stop, frames_done);
+  const auto modelled = catch_plugin_fault([&] {
+    return model_and_store(files, missing, prepared.open, run_options_of(task, options), stop, frames_done);
+  });
   if (modelled && !*modelled) return TaskOutcome{TaskEnd::kInterrupted};
   TaskRecord record{modelled ? "" : modelled.error().text, host_name(), TILEPRESS_VERSION, utc_time(), 0, 0};
   record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

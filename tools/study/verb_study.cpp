@@ -61,6 +61,7 @@ void add_study_options(CLI::App& app, VerbOptions& options) {
   add_run_option(app, study.run, "output", "Folder of the study (default: " + study.run.output + ")");
   app.add_flag("-n,--plan", options.plan_only, "Print tasks, frames and the estimated time, and run nothing");
   app.add_flag("--example", options.example, "Print a commented study file");
+  add_run_option(app, study.run, "plugin", "Shared library with further schemes, beside those of the study's `plugins`; repeat for more");
   add_category_option(app, study.categories);
   add_frame_options(app, study.run);
   app.add_flag("--bounds", study.bounds,
