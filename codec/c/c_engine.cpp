@@ -51,16 +51,16 @@ tp_status open_engine(uint32_t width, uint32_t height, uint32_t format, const ch
                       const tp_options* options, std::unique_ptr<tp_engine>& out) {
   if (schemes == nullptr) return c_failure(TP_BAD_ARGUMENT, "schemes is NULL");
   if (width < 1 || width > kMaxSurfaceSide || height < 1 || height > kMaxSurfaceSide)
-    return c_failure(TP_BAD_ARGUMENT, "a surface of " + std::to_string(width) + "x" +
-                                          std::to_string(height) + " cannot be");
+    return c_failure(TP_BAD_ARGUMENT,
+                     "a surface of " + std::to_string(width) + "x" + std::to_string(height) + " cannot be");
   const auto pixels = c_format(format);
   if (!pixels) return c_failure(TP_BAD_ARGUMENT, pixels.error().text);
   const auto parsed = c_options(options);
   if (!parsed) return c_failure(TP_BAD_ARGUMENT, parsed.error().text);
   auto specs = parse_list(schemes);
   if (!specs) return c_failure(TP_BAD_SCHEME, specs.error().text);
-  out = std::make_unique<tp_engine>(
-      std::move(*specs), *parsed, SurfaceView{nullptr, 0, width, height, pixels->format, pixels->order});
+  out = std::make_unique<tp_engine>(std::move(*specs), *parsed,
+                                    SurfaceView{nullptr, 0, width, height, pixels->format, pixels->order});
   return TP_OK;
 }
 
@@ -80,8 +80,8 @@ tp_status check_kept(const tp_engine* engine, uint32_t scheme) {
   if (engine->surfaces.empty())
     return c_failure(TP_NO_FRAME, "the engine keeps no blocks (open it with keep_blocks = 1)");
   if (engine->frame.schemes[scheme].skipped)
-    return c_failure(TP_UNSUPPORTED, "scheme " + engine->specs[scheme].text +
-                                         " does not support the surface's format");
+    return c_failure(TP_UNSUPPORTED,
+                     "scheme " + engine->specs[scheme].text + " does not support the surface's format");
   return TP_OK;
 }
 
@@ -197,8 +197,8 @@ tp_status tp_engine_block_bits(const tp_engine* engine, uint32_t scheme, uint16_
     if (bits == nullptr) return c_failure(TP_BAD_ARGUMENT, "bits is NULL");
     const std::vector<uint16_t>& known = engine->block_bits.schemes[scheme];
     if (known.empty())
-      return c_failure(TP_UNSUPPORTED, "scheme " + engine->specs[scheme].text +
-                                           " does not support the surface's format");
+      return c_failure(TP_UNSUPPORTED,
+                       "scheme " + engine->specs[scheme].text + " does not support the surface's format");
     if (count < known.size())
       return c_failure(TP_NO_SPACE, "bits: room for " + std::to_string(count) + " of " +
                                         std::to_string(known.size()) + " blocks");
@@ -216,8 +216,8 @@ tp_status tp_engine_encode_block(const tp_engine* engine, uint32_t scheme, uint3
       return c_failure(TP_BAD_ARGUMENT, "payload, csb or where their lengths go is NULL");
     const CompressedSurface& surface = engine->surfaces[scheme];
     if (bx >= surface.blocks_x() || by >= surface.blocks_y())
-      return c_failure(TP_BAD_ARGUMENT, "there is no block (" + std::to_string(bx) + ", " +
-                                            std::to_string(by) + ")");
+      return c_failure(TP_BAD_ARGUMENT,
+                       "there is no block (" + std::to_string(bx) + ", " + std::to_string(by) + ")");
     const uint64_t number = uint64_t{by} * surface.blocks_x() + bx;
     const uint32_t bits = surface.block_bits[number];
     if (payload_bytes < (bits + 7) / 8 || csb_bytes < (surface.csb_bits + 7) / 8)

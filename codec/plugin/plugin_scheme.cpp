@@ -35,8 +35,8 @@ std::map<std::string, PluginEntry, std::less<>>& entries() {
 bool is_word(const char* text) {
   if (text == nullptr || *text == '\0') return false;
   const std::string_view word = text;
-  return std::ranges::all_of(
-      word, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
+  return std::ranges::all_of(word,
+                             [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
 }
 
 bool is_line(const char* text) {
@@ -146,8 +146,8 @@ std::vector<uint32_t> picture(uint32_t frame) {
   for (uint32_t y = 0; y < kTrySide; ++y)
     for (uint32_t x = 0; x < kTrySide; ++x) {
       noise = noise * 1664525u + 1013904223u;
-      const uint32_t kinds[] = {0xFF204060u, 0xFF000000u + 0x010101u * ((x + y) % 3), x * 0x010200u + y + frame,
-                                noise};
+      const uint32_t kinds[] = {0xFF204060u, 0xFF000000u + 0x010101u * ((x + y) % 3),
+                                x * 0x010200u + y + frame, noise};
       words[y * kTrySide + x] = kinds[(x / 8 + y / 8) % 4];
     }
   return words;
@@ -174,8 +174,8 @@ std::string try_scheme(const tp_scheme& table) {
     encodes.process(view, statistics, surfaces);
     for (size_t i = 0; i < bits.schemes[0].size(); ++i)
       if (bits.schemes[0][i] != surfaces[0].block_bits[i])
-        return "encode() writes " + std::to_string(surfaces[0].block_bits[i]) + " bits where measure() returns " +
-               std::to_string(bits.schemes[0][i]);
+        return "encode() writes " + std::to_string(surfaces[0].block_bits[i]) +
+               " bits where measure() returns " + std::to_string(bits.schemes[0][i]);
   }
   return "";
 }

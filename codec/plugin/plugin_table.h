@@ -15,7 +15,9 @@ const tp_scheme& plugin_table(std::string_view name);
 void forget_newest_scheme();
 
 // For SchemeInfo::make_encoder and make_decoder. Both throw a PluginFault if the plugin makes no state.
-std::unique_ptr<BlockEncoder> make_plugin_encoder(const SchemeSpec&, const FormatTraits&, const ModelOptions&);
-std::unique_ptr<BlockDecoder> make_plugin_decoder(const SchemeSpec&, const FormatTraits&, const ModelOptions&);
+std::unique_ptr<BlockEncoder> make_plugin_encoder(const SchemeSpec&, const FormatTraits&,
+                                                  const ModelOptions&);
+std::unique_ptr<BlockDecoder> make_plugin_decoder(const SchemeSpec&, const FormatTraits&,
+                                                  const ModelOptions&);
 
 }  // namespace tilepress
