@@ -7,10 +7,10 @@
 #include <array>
 #include <cstring>
 
-#include "dcp/algorithm1.h"
 #include "dcp/dcp_family.h"
 #include "dcp/sub_blocks.h"
 #include "registry.h"
+#include "tilepress/algorithm1.h"
 
 namespace tilepress {
 namespace {

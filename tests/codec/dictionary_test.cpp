@@ -6,11 +6,11 @@
 #include <random>
 #include <vector>
 
-#include "dcp/algorithm1.h"
 #include "dcp/ccd.h"
 #include "dcp/fvc.h"
 #include "dictionary/color_table.h"
 #include "dictionary/huffman.h"
+#include "tilepress/algorithm1.h"
 
 using namespace tilepress;
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The codec alone builds, installs, may be moved, and serves programs by CMake and by pkg-config: in C++, in C, as a
-# plugin.
+# plugin. The tree stays for the tests of the Python module.
 # Usage: package_test.sh SOURCE_FOLDER WORK_FOLDER CXX CC [LAUNCHER]
 set -euo pipefail
 source=$1 work=$2 compiler=$3 c_compiler=$4 launcher=${5:-}
@@ -10,7 +10,7 @@ rm -rf "$work/prefix" "$work/a place" "$work/user" "$work/plugin"
 mkdir -p "$work/a place"
 # The build folder stays: a second run compiles only what changed. Little is optimised: that would take minutes.
 cmake -S "$source" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" \
-  -DTILEPRESS_CODEC_ONLY=ON -DTILEPRESS_PRECOMPILE=ON >/dev/null
+  -DTILEPRESS_CODEC_ONLY=ON -DTILEPRESS_PRECOMPILE=ON -DTILEPRESS_PYTHON=ON >/dev/null
 cmake --build "$work/build" -j2 >/dev/null
 cmake --install "$work/build" --prefix "$work/prefix" >/dev/null
 mv "$work/prefix" "$work/a place/moved"
