@@ -27,7 +27,7 @@ def draw(number, height=640, width=360):
     noise = numpy.random.default_rng(7)
     page = numpy.full((4096, width, 4), 255, numpy.uint8)
     for top in range(0, 4000, 160):
-        shades = numpy.linspace(0, 255, width - 40).astype(numpy.uint8)
+        shades = numpy.linspace(0, 255, width - 40).astype(numpy.uint8) // 8 * 8
         page[top:top + 48, 20:-20, :3] = shades[:, None] // (top // 160 % 5 + 1) + numpy.uint8([top % 200, 20, 40])
         for line in range(top + 60, top + 150, 16):
             ink = noise.random((9, width - 40)) < 0.25
@@ -63,6 +63,7 @@ for scheme, marker in SCHEMES.items():
 rates.set_xscale("log", base=2)
 rates.set_xticks(SIZES, SIZES)
 rates.minorticks_off()
+rates.set_title(f"{len(frames) - 1} frames", fontsize=10)
 rates.set_xlabel("entries of the FVC")
 rates.set_ylabel("compression rate (raw bits / moved bits)")
 rates.set_ylim(bottom=0)
@@ -75,10 +76,11 @@ algorithm = ccd.algorithm1()
 entries = [2**each.width for each in algorithm.rounds]
 sizes.plot(entries, [each.bits / ccd.samples for each in algorithm.rounds], marker="o", label="bits per pixel")
 sizes.axvline(algorithm.entries, color="0.6", linewidth=1)
-sizes.text(algorithm.entries, 0.98, " chosen", va="top", color="0.4", transform=sizes.get_xaxis_transform())
+sizes.text(algorithm.entries, 0.04, "chosen ", ha="right", color="0.4", transform=sizes.get_xaxis_transform())
 sizes.set_xscale("log", base=2)
 sizes.set_xticks(entries, entries)
 sizes.minorticks_off()
+sizes.set_title("Algorithm 1, last frame", fontsize=10)
 sizes.set_xlabel("colours of the dictionary")
 sizes.set_ylabel("predicted bits per pixel")
 sizes.set_ylim(bottom=0)
