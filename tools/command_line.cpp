@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "toml_text.h"
+#include "usage_text.h"
 
 namespace tilepress {
 namespace {
@@ -23,20 +24,26 @@ std::string scalar_text(const toml::node& node, const std::string& key) {
     text << *number;
     return text.str();
   }
-  throw CLI::ConfigError("config: " + key + ": must be text, a number, true, false, or a list of these");
+  throw CLI::ConfigError(
+      at_line(node, key + ": must be text, a number, true, false, or a list of these").text);
 }
 
 /// Reads top-level keys as long option names: strings, numbers, booleans, and arrays for repeatable options.
 class TomlConfig : public CLI::Config {
  public:
+  explicit TomlConfig(CLI::App& app) : app_(app) {}
   std::string to_config(const CLI::App*, bool, bool, std::string) const override { return {}; }
-  /// Throws CLI::ConfigError, which names the line or the key.
+  /// Throws CLI::ConfigError, which names the line.
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
+    config_.path = app_.get_config_ptr()->as<std::string>();
     const auto table = parse_toml([&] { return toml::parse(input); });
-    if (!table) throw CLI::ConfigError("config: " + table.error().text);
+    if (!table) throw CLI::ConfigError(table.error().text);
     std::vector<CLI::ConfigItem> found;
     for (const auto& [key_node, node] : *table) {
       const std::string key(key_node.str());
+      // The command line was read before. An option that it sets takes nothing from here.
+      const CLI::Option* option = app_.get_option_no_throw("--" + key);
+      if (option == nullptr || option->empty()) config_.lines[key] = node.source().begin.line;
       CLI::ConfigItem item;
       item.name = key;
       if (const toml::array* list = node.as_array()) {
@@ -48,28 +55,20 @@ class TomlConfig : public CLI::Config {
     }
     return found;
   }
-};
+  const ConfigLines& lines() const { return config_; }
 
-/// What CLI11 says, or a clearer text where there is one.
-std::string describe(const CLI::App& app, const CLI::ParseError& error) {
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    const auto extras = app.remaining();
-    if (!extras.empty())
-      return (extras.front().starts_with("-") ? "unknown option '" : "unexpected argument '") +
-             extras.front() + "'";
-  }
-  std::string text = error.what();
-  if (const std::string prefix = "INI was not able to parse "; text.starts_with(prefix))
-    text = "--config: unknown option '" + text.substr(prefix.size()) + "'";
-  return text;
-}
+ private:
+  CLI::App& app_;
+  mutable ConfigLines config_;  // CLI11 reads files through const functions
+};
 
 }  // namespace
 
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
   app.name(std::string("tilepress ") + argv[0]);
   app.set_config("--config", "", "Take options from a TOML file, by their long names")->type_name("FILE");
-  app.config_formatter(std::make_shared<TomlConfig>());
+  const auto config = std::make_shared<TomlConfig>(app);
+  app.config_formatter(config);
   app.allow_config_extras(CLI::config_extras_mode::error);
   app.get_formatter()->column_width(34);
   try {
@@ -78,7 +77,7 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv) {
     std::fputs(app.help().c_str(), stdout);
     return kExitDone;
   } catch (const CLI::ParseError& error) {
-    return fail(kExitUsage, describe(app, error));
+    return fail(kExitUsage, usage_text(app, error, config->lines()));
   }
   return std::nullopt;
 }
@@ -91,10 +90,7 @@ std::optional<int> parse_launch_line(CLI::App& app, int argc, char** argv,
   while (own < argc && std::strcmp(argv[own], "--") != 0) ++own;
   if (auto status = parse_command_line(app, own, argv)) return status;
   program = app.remaining();
-  const auto refuse = [](const std::string& word) {
-    return fail(kExitUsage,
-                (word.starts_with("-") ? "unknown option '" : "unexpected argument '") + word + "'");
-  };
+  const auto refuse = [&app](const std::string& word) { return fail(kExitUsage, unexpected_text(app, word)); };
   if (own < argc && !program.empty()) return refuse(program.front());
   for (int i = own + 1; i < argc; ++i) program.emplace_back(argv[i]);
   if (program.empty())

@@ -9,6 +9,7 @@
 
 #include "exit_status.h"
 #include "streams/messages.h"
+#include "tilepress/nearest_word.h"
 
 namespace tilepress {
 
@@ -40,7 +41,9 @@ void add_choice_option(CLI::App& app, const std::string& flags, T& value,
                value = meaning;
                return;
              }
-           throw CLI::ValidationError(flags + " " + given + ": not one of " + list);
+           std::vector<std::string_view> words;
+           for (const auto& [word, meaning] : choices) words.push_back(word);
+           throw CLI::ValidationError(flags + " " + given + ": not one of " + list + nearest_hint(given, words));
          },
          text)
       ->type_name(form);

@@ -5,9 +5,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "command_line.h"
 #include "streams/standard_streams.h"
+#include "tilepress/nearest_word.h"
 #include "tilepress/simd.h"
 #include "verb.h"
 
@@ -68,6 +70,13 @@ const Verb* find_verb(const char* name) {
   return nullptr;
 }
 
+int unknown_word(const std::string& word) {
+  std::vector<std::string_view> names = {"help", "--help", "--version"};
+  for (const Verb& verb : kVerbs) names.emplace_back(verb.name);
+  const char* kind = word.starts_with("-") ? "unknown option '" : "unknown verb '";
+  return fail(kExitUsage, kind + word + "'" + nearest_hint(word, names, "see tilepress help"));
+}
+
 int show_help() {
   std::fputs(kHeadText, stdout);
   for (const Verb& verb : kVerbs) std::printf("  %-12s %s\n", verb.name, verb.synopsis);
@@ -79,9 +88,10 @@ int show_help() {
 std::optional<int> force_simd() {
   const char* name = std::getenv("TILEPRESS_SIMD");
   if (name == nullptr || *name == '\0' || force_simd_target(name)) return {};
-  std::string known;
-  for (std::string_view target : simd_targets()) known += (known.empty() ? "" : ", ") + std::string(target);
-  return fail(kExitUsage, std::string("TILEPRESS_SIMD=") + name + ": this machine has " + known);
+  const auto targets = simd_targets();
+  const std::vector<std::string_view> known(targets.begin(), targets.end());
+  return fail(kExitUsage, std::string("TILEPRESS_SIMD=") + name + ": this machine has " + listed_words(known, ", ") +
+                              nearest_hint(name, known));
 }
 
 int dispatch(int argc, char** argv) {
@@ -95,17 +105,13 @@ int dispatch(int argc, char** argv) {
   if (word == "--help" || word == "-h" || (word == "help" && argc == 2)) return show_help();
   if (word == "help") {
     const Verb* verb = find_verb(argv[2]);
-    if (verb == nullptr)
-      return fail(kExitUsage, std::string("unknown verb '") + argv[2] + "' (see tilepress help)");
+    if (verb == nullptr) return unknown_word(argv[2]);
     char help[] = "--help";
     char* help_argv[] = {argv[2], help, nullptr};
     return verb->run(2, help_argv);
   }
   const Verb* verb = find_verb(word.c_str());
-  if (verb == nullptr) {
-    const char* kind = word.starts_with("-") ? "unknown option '" : "unknown verb '";
-    return fail(kExitUsage, kind + word + "' (see tilepress help)");
-  }
+  if (verb == nullptr) return unknown_word(word);
   choose_on_signal(verb->on_signal);
   return verb->run(argc - 1, argv + 1);
 }

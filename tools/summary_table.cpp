@@ -48,7 +48,7 @@ std::string rates_text(const std::vector<std::string>& names, const std::vector<
   size_t width = 6;
   for (const std::string& name : names) width = std::max(width, name.size());
   std::string out = fmt::format("  {:<{}}  {:>9}  {:>12}  {:>8}  {:>7}  {:>9}  {:>8}\n", "scheme", width,
-                                "rate", "rate_payload", "bursts", "csb", "palette", "saving");
+                                "rate", "payload rate", "bursts", "csb", "palette", "saving");
   for (size_t i = 0; i < names.size(); ++i) {
     const SchemeStatistics& sum = totals[i];
     const uint64_t moved = sum.moved_bits();

@@ -58,7 +58,7 @@ class Command(CliCase):
         self.expect(USAGE, "no verb given (see tilepress help)")
         self.expect(USAGE, "unknown verb 'frob' (see tilepress help)", "frob")
         self.expect(USAGE, "unknown option '--frob' (see tilepress help)", "--frob")
-        self.expect(USAGE, "unknown option '--frob'", "schemes", "--frob")
+        self.expect(USAGE, "unknown option '--frob' (see tilepress schemes --help)", "schemes", "--frob")
         self.expect(USAGE, "unexpected argument 'frob'", "schemes", "frob")
 
     def test_schemes_lists_the_seven_of_the_paper(self):
@@ -200,7 +200,7 @@ class Rows(CliCase):
         options = read_json(self.path("cfg/run.json"))["options"]
         self.assertEqual((options["schemes"], options["tile"], options["verify"]), (["red"], 64, True))
         self.write("bad.toml", b"frob = 1\n")
-        self.expect(USAGE, "--config: unknown option 'frob'", "frames", "--config", "bad.toml", golden("odd", 0))
+        self.expect(USAGE, "bad.toml: line 1: unknown option 'frob'", "frames", "--config", "bad.toml", golden("odd", 0))
         self.write("torn.toml", b"scheme = [\n")
         done = self.run_command("frames", "--config", "torn.toml", golden("odd", 0))
         self.assertEqual((done.returncode, done.stderr.count(b"\n")), (USAGE, 1))
@@ -248,7 +248,7 @@ class BadInput(CliCase):
     def test_what_is_no_image_is_named(self):
         self.write("text.txt", b"no image\n")
         self.expect(FAILED, "text.txt: not an image", "frames", "text.txt")
-        self.expect(FAILED, ".: is a folder; name its images", "frames", ".")
+        self.expect(FAILED, ".: is a folder without images (raw .rgba files need --size WxH)", "frames", ".")
 
     def test_deep_images_are_refused_not_narrowed(self):
         self.write("deep.png", png(8, 8, 3, 16, [bytes(48)] * 8))
@@ -307,7 +307,7 @@ class BadInput(CliCase):
         self.assert_absent("out")
 
     def test_no_image_is_a_usage_error(self):
-        self.expect(USAGE, "IMAGE is required", "frames")
+        self.expect(USAGE, "no IMAGE given (see tilepress frames --help)", "frames")
 
 
 if __name__ == "__main__":

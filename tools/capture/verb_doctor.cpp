@@ -146,12 +146,19 @@ std::vector<Finding> examine() {
   return findings;
 }
 
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  tilepress doctor\n"
+    "  tilepress doctor --json\n"
+    "  xvfb-run -a tilepress doctor\n";
+
 }  // namespace
 
 int verb_doctor(int argc, char** argv) {
   CLI::App app(
       "Checks what this machine has for capture and replay, and names missing packages. "
       "Exit 1 if no capture is possible.");
+  app.footer(kExamples);
   bool json = false;
   app.add_flag("--json", json, "As JSON");
   if (auto status = parse_command_line(app, argc, argv)) return *status;

@@ -10,6 +10,7 @@
 #include "printable.h"
 #include "tilepress/trace_summary.h"
 #include "verb.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -80,10 +81,17 @@ void print_trace(const std::string& path, const TraceSummary& trace) {
                                     trace.reason));
 }
 
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  tilepress info game.trace\n"
+    "  tilepress info traces/*.trace\n"
+    "  tilepress info --json game.trace > game.json\n";
+
 }  // namespace
 
 int verb_info(int argc, char** argv) {
   CLI::App app("Prints what apitrace traces hold, without replaying them.");
+  app.footer(kExamples);
   bool json = false;
   std::vector<std::string> paths;
   app.add_flag("--json", json, "As JSON: an array with an object for each trace");
@@ -95,7 +103,9 @@ int verb_info(int argc, char** argv) {
   for (const std::string& path : paths) {
     const auto trace = summarize_trace(path);
     if (!trace) {
-      status = fail(kExitFailed, about(path, trace.error()));
+      Error error = about(path, trace.error());
+      if (!missing_paths({path}).empty()) error.text += path_hint(path);
+      status = fail(kExitFailed, error);
       if (json) list.push_back({{"path", path}, {"state", "unreadable"}, {"reason", trace.error().text}});
       continue;
     }

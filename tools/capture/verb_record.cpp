@@ -11,6 +11,7 @@
 #include "tilepress/program_search.h"
 #include "tilepress/trace_summary.h"
 #include "verb.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -21,6 +22,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  tilepress record -o desktop.trace -- glmark2-es2 -b desktop:duration=3 --run-forever\n"
     "  tilepress record --api glx -o gears.trace -- glxgears\n"
+    "  xvfb-run -a tilepress record -o game.trace -- ./game --level 3\n"
     "\n"
     "The names in the program's file decide between EGL and GLX. If the recording holds no frame, the\n"
     "program runs again, recorded through the other API.\n"
@@ -132,7 +134,9 @@ int verb_record(int argc, char** argv) {
     fs::remove(file, code);
     if (recording.program_status != 0)
       reason += fmt::format(" (it ended with status {})", recording.program_status);
-    return fail(kExitNothingCaptured, name + ": no frame recorded: " + reason);
+    const int status = fail(kExitNothingCaptured, name + ": no frame recorded: " + reason);
+    if (lacks_display()) show(display_hint("record"));
+    return status;
   }
 }
 

@@ -9,12 +9,14 @@
 #include <set>
 
 #include "frames/cached_surface.h"
+#include "frames/image_folders.h"
 #include "frames/piped_file.h"
 #include "images/image_kind.h"
 #include "images/image_library.h"
 #include "streams/ending_signals.h"
 #include "streams/messages.h"
 #include "streams/standard_streams.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -37,7 +39,10 @@ class SourceFinder {
     found_.size = raw_size.value_or(FrameSize{});
   }
 
-  Result<FrameSources> find(const std::vector<std::string>& paths) {
+  Result<FrameSources> find(const std::vector<std::string>& given) {
+    const auto expanded = expand_image_folders(given, [this](const std::string& path) { return is_raw(path); });
+    if (!expanded) return expanded.error();
+    const std::vector<std::string>& paths = *expanded;
     for (const std::string& path : paths)
       if (const auto checked = check_path(path); !checked) return checked.error();
     for (const std::string& path : paths) {
@@ -65,8 +70,7 @@ class SourceFinder {
     struct stat status {};
     if (standard_input ? fstat(STDIN_FILENO, &status) != 0
                        : stat(path.c_str(), &status) != 0 || access(path.c_str(), R_OK) != 0)
-      return Error{ErrorKind::kFile, path + ": " + std::strerror(errno)};
-    if (S_ISDIR(status.st_mode)) return Error{ErrorKind::kFile, path + ": is a folder; name its images"};
+      return Error{ErrorKind::kFile, errno == ENOENT ? missing_text(path) : path + ": " + std::strerror(errno)};
     if (!takes_raw_ && path.ends_with(".rgba"))
       return Error{ErrorKind::kBadValue, path + ": a raw frame needs --size WxH"};
     const bool pipe = standard_input || !S_ISREG(status.st_mode);

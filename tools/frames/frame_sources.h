@@ -40,7 +40,7 @@ struct FrameSources {
   uint64_t frame_bytes() const { return size.pixels() * (traits(format).pixel_bits / 8); }
 };
 
-/// Reads every file's header. Raw files and pipes hold frames of `raw_size` and `raw_format`: with kRgba8
+/// Reads every file's header. A folder stands for its images (image_folders.h). Raw files and pipes hold frames of `raw_size` and `raw_format`: with kRgba8
 /// only .rgba files are raw, else all files are. Without `raw_size` there are no raw files. Fails with
 /// kBadValue if
 /// --size is missing, and with another kind for a file that is missing, unreadable, not taken, or of another

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <map>
 
+#include "way_out.h"
+
 namespace tilepress {
 namespace fs = std::filesystem;
 namespace {
@@ -48,8 +50,8 @@ Result<std::vector<BatchEntry>> find_runs(const std::vector<std::string>& paths)
   for (const std::string& path : paths) {
     std::error_code code;
     if (!fs::is_directory(path, code))
-      return Error{ErrorKind::kFile,
-                   path + (fs::exists(path, code) ? ": not a run directory" : ": no such folder")};
+      return Error{ErrorKind::kFile, path + (fs::exists(path, code) ? ": not a run directory"
+                                                                    : ": no such folder" + path_hint(path))};
     const size_t before = found.size();
     collect(path, found);
     if (found.size() == before)

@@ -1,4 +1,5 @@
 // tilepress cost: the cost of the DCP structures, and the energy that a rate saves.
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  tilepress cost --size 1920x1080 --rate 5.26 --rate 1.75\n"
     "  tilepress cost --fvc 128 --surfaces 4 --size 3840x2160 --refresh 120 --json\n"
+    "  tilepress cost --size 720x1280 --rate 4 --structures-pj 10\n"
     "\n"
     "The constants are the paper's: CACTI 7.0 at 22 nm for 64 entries, DRAMPower 4.0 for LPDDR3.\n";
 
@@ -49,6 +51,40 @@ nlohmann::ordered_json hardware_json() {
   return list;
 }
 
+struct NamedStructure {
+  const char* name;
+  const char* type;
+  const StructureFigures& figures;
+};
+
+/// The rows of the paper's table of hardware cost.
+std::array<NamedStructure, 3> structures_of(const CostConstants& constants) {
+  return {{{"FVC", "CAM", constants.fvc}, {"CCD", "CAM", constants.ccd}, {"rCCD", "cache", constants.rccd}}};
+}
+
+nlohmann::ordered_json structures_json(const CostConstants& constants) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& [name, type, figures] : structures_of(constants))
+    list.push_back({{"name", name},
+                    {"type", type},
+                    {"entries", constants.table_entries},
+                    {"area_mm2", figures.area_mm2},
+                    {"leakage_mw", figures.leakage_mw},
+                    {"access_pj", figures.access_pj},
+                    {"latency_ns", figures.latency_ns},
+                    {"mpixels_per_s", figures.mpixels_per_s}});
+  return list;
+}
+
+void print_structures(const CostConstants& constants) {
+  std::printf("structures, each of %u entries, CACTI 7.0 at 22 nm\n", constants.table_entries);
+  std::printf("  %-5s %-5s %12s %12s %10s %10s %9s\n", "", "type", "area mm2", "leakage mW", "access pJ", "latency ns",
+              "MPixel/s");
+  for (const auto& [name, type, figures] : structures_of(constants))
+    std::printf("  %-5s %-5s %12g %12g %10g %10g %9g\n", name, type, figures.area_mm2, figures.leakage_mw,
+                figures.access_pj, figures.latency_ns, figures.mpixels_per_s);
+}
+
 void print_json(const CostOptions& options) {
   const uint64_t pixels = uint64_t{options.load.width} * options.load.height;
   const BandwidthCheck check = check_bandwidth(options.load, options.sample, options.constants);
@@ -71,6 +107,7 @@ void print_json(const CostOptions& options) {
         {"ccd", {{"needed", check.ccd_needed}, {"offered", options.constants.ccd.mpixels_per_s}}},
         {"rccd", {{"needed", check.rccd_needed}, {"offered", options.constants.rccd.mpixels_per_s}}}}},
       {"bandwidth_suffices", check.suffices()},
+      {"structures", structures_json(options.constants)},
       {"raw_bytes_per_s", options.load.raw_bytes_per_s()},
       {"raw_power_mw", dram_power_mw(options.load.raw_bytes_per_s(), options.constants)},
       {"rates", rates},
@@ -95,8 +132,9 @@ void print_text(const CostOptions& options) {
   std::printf("  CCD   %9.0f bytes\n", std::ceil(ccd_bytes));
   std::printf("  rCCD  %9.0f bytes, one each for %u surfaces\n", std::ceil(options.surfaces * ccd_bytes),
               options.surfaces);
+  print_structures(constants);
   const bool extrapolated = options.entries != constants.table_entries;
-  std::printf("area    %11.9f mm2%s\n", structures_area_mm2(options.entries, options.surfaces, constants),
+  std::printf("area of all  %11.9f mm2%s\n", structures_area_mm2(options.entries, options.surfaces, constants),
               extrapolated ? ", a linear extrapolation of the figures for 64 entries" : "");
   std::printf("bandwidth at %g Hz%s\n", load.refresh_hz,
               extrapolated ? ", the structures being as fast as with 64 entries" : "");

@@ -1,0 +1,25 @@
+// Way out: hints that stand behind the reason of an error.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tilepress {
+
+/// Returns " (did you mean 'shots/1.png'?)" if a file or folder of a similar name is where `path` says there is
+/// one; else an empty text. Patterns that no shell has replaced count as names.
+std::string path_hint(const std::string& path);
+
+/// Whether neither an X server nor a Wayland compositor is named in the environment.
+bool lacks_display();
+
+/// Two indented lines on how to run `verb` without a display.
+std::string display_hint(const std::string& verb);
+
+/// Returns those of `paths` that do not exist. "-" exists.
+std::vector<std::string> missing_paths(const std::vector<std::string>& paths);
+
+/// "PATH: No such file or directory", with the path's hint.
+std::string missing_text(const std::string& path);
+
+}  // namespace tilepress
