@@ -6,6 +6,7 @@ import csv
 import gzip
 import io
 import os
+import struct
 import subprocess
 import sys
 import unittest
@@ -16,7 +17,7 @@ from cli_case import CliCase, XServer, golden, read_rows  # noqa: E402
 
 TRACE = sys.argv[3]  # of GLX or EGL calls
 PACKET_CLASSES = sys.argv[4]  # folder of gem5_packet_pb2.py
-sys.path.insert(0, PACKET_CLASSES)
+sys.path.insert(0, os.path.abspath(PACKET_CLASSES))
 
 Key = collections.namedtuple("Key", "frame surface operation")
 
@@ -105,7 +106,7 @@ class Frames(MemoryTraceCase):
         self.assertLessEqual(compressed, {r["address"] for r in raw})
 
     def test_contents_are_those_of_the_packed_file_and_reads_return_what_was_written(self):
-        images = [golden("desktop", 1), golden("desktop", 2)]
+        images = [golden("odd", 1), golden("odd", 2)]
         self.good("pack", "-q", "-s", "hdcp", "-o", "p.tpk", *images)
         self.good("memory-trace", "-q", "p.tpk", "--trace-data", "-o", "packed.csv")
         self.good("frames", "-q", "-s", "hdcp", "-j", "2", "-o", "-", "--memory-trace", "frames.csv", "--trace-data", *images)
@@ -126,7 +127,7 @@ class Frames(MemoryTraceCase):
                 self.assertIn(bytes.fromhex(tables.rstrip("0")[: 2 * 200]), body)
 
     def test_requests_of_more_bursts_cover_the_same_bytes(self):
-        image = golden("map", 1)
+        image = golden("odd", 3)
         self.good("frames", "-q", "-s", "vdcp", "-o", "o", "--memory-trace", "a.csv", image, image)
         self.good("memory-trace", "-q", "o", "--request-bytes", "64", "-o", "b.csv")
         small = {int(r["address"], 16) // 64 for r in csv_requests(self.text("a.csv"))}
@@ -135,7 +136,7 @@ class Frames(MemoryTraceCase):
         self.assertEqual({r["bytes"] for r in large}, {"64"})
         self.assertTrue(all(int(r["address"], 16) % 64 == 0 for r in large))
 
-    def test_frames_of_two_surfaces_lie_apart_and_share_a_refresh(self):
+    def test_frames_lie_at_the_base_and_fill_their_refresh(self):
         self.good("pack", "-q", "-s", "vdcp", "-o", "o.tpk", golden("odd", 1), golden("odd", 2))
         self.good("memory-trace", "-q", "o.tpk", "--refresh", "100", "--trace-base", "0x10000", "-o", "o.csv")
         requests = csv_requests(self.text("o.csv"))
@@ -145,6 +146,24 @@ class Frames(MemoryTraceCase):
             time, frame = int(request["time_ps"]), int(request["frame"])
             begin = frame * period if request["operation"] == "write" else (frame + 1) * period
             self.assertTrue(begin <= time < begin + period, request)
+
+    def test_frames_of_two_surfaces_lie_apart_and_share_a_refresh(self):
+        self.good("frames", "-q", "-s", "vdcp", "-o", "o", "--memory-trace", "t.csv", golden("odd", 1))
+        # tilepress/block_log.h: two blocks of one burst, 48 CSB bits a block, no tables.
+        log = struct.pack("<8s6I", b"TPBLOCKS", 1, 32, 128, 0, 4, 0) + b"vdcp"
+        for frame, surface in ((0, 5), (0, 9), (1, 5), (1, 9), (2, 9)):
+            log += struct.pack("<4Q6I2H", 4, frame, 0, 0, surface, 16, 8, 0, 48, 0, 100, 128)
+        self.write("o/blocks.log", log)
+        self.good("memory-trace", "-q", "o", "--refresh", "1000", "-o", "two.csv")
+        requests = csv_requests(self.text("two.csv"))
+        # Three requests each: two blocks and one burst of CSB.
+        self.assertEqual(set(counts_of(requests).values()), {3})
+        self.assertEqual({r["address"] for r in requests if r["surface"] == "5"}, {"0x0", "0x100", "0x200"})
+        self.assertEqual({r["address"] for r in requests if r["surface"] == "9"}, {"0x1000", "0x1100", "0x1200"})
+        writes = {int(r["time_ps"]) // 10**9 for r in requests if r["operation"] == "write" and r["frame"] == "1"}
+        self.assertEqual(writes, {1})  # both surfaces share the second millisecond
+        last = [int(r["time_ps"]) for r in requests if r["frame"] == "2" and r["operation"] == "read"]
+        self.assertEqual(last, [3 * 10**9, 3 * 10**9 + 333333333, 3 * 10**9 + 666666666])
 
     def test_bad_options_are_one_line_before_any_work(self):
         for status, line, words in (
@@ -240,7 +259,7 @@ class Formats(MemoryTraceCase):
 
 class Compose(MemoryTraceCase):
     def test_reads_equal_the_rows_of_compose(self):
-        self.good("pack", "-q", "-s", "vdcp", "-o", "a.tpk", golden("desktop", 1), golden("desktop", 2))
+        self.good("pack", "-q", "-s", "vdcp", "-o", "a.tpk", golden("odd", 1), golden("odd", 2))
         self.good("pack", "-q", "-s", "ras", "-o", "b.tpk", golden("odd", 1))
         common = ["a.tpk", "b.tpk", "--at", "0,0", "--at", "10,20", "--csb-lines", "2", "-q", "--force"]
         for raw in (False, True):
