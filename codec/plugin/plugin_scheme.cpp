@@ -60,7 +60,8 @@ std::string check_functions(const tp_scheme& table) {
 std::string check_columns(const tp_scheme& table) {
   if (table.column_count > kOwnCounts) return "more than 4 columns";
   if (table.column_count > 0 && table.columns == nullptr) return "columns is NULL";
-  std::string header = "," + schemes_csv_header();
+  std::string header = ",";
+  header += schemes_csv_header();
   header.back() = ',';
   for (uint32_t i = 0; i < table.column_count; ++i) {
     if (!is_word(table.columns[i])) return "column " + std::to_string(i) + " has no name for a column";

@@ -32,7 +32,7 @@ std::string numbers_of_files(const SchemeSpec& spec) {
   std::string out;
   for (const auto& [key, value] : spec.values)
     if (const auto* numbers = std::get_if<std::vector<uint32_t>>(&value))
-      for (const uint32_t number : *numbers) out += " " + std::to_string(number);
+      for (const uint32_t number : *numbers) out.append(" ").append(std::to_string(number));
   return out;
 }
 
