@@ -99,6 +99,7 @@ TEST(CachedRendering, OfTwoThatAskAtTheSameTimeOneRenders) {
   const TestFolder folder;
   const ReplayInput input = first_frames("0");
   const RenderOptions options = options_for(folder);
+  probe_renderer();
   std::vector<CachedRendering> done(2);
   std::vector<std::thread> threads;
   for (CachedRendering& each : done) threads.emplace_back([&] { each = expect_rendering(input, options); });
