@@ -1,7 +1,11 @@
 """A page of the tree as a reader of GitHub sees it: headings, links, code blocks, inline code."""
 import re
+import sys
 from dataclasses import dataclass, field
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "tools/site_pages"))
+from github_slug import numbered, slug
 
 # The folders of builds, and code of other projects.
 NOT_OURS = {"build", "vendor", ".git", ".cache"}
@@ -51,12 +55,6 @@ class Block:
         return out
 
 
-def slug(heading):
-    """GitHub's anchor of a heading."""
-    words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").strip().lower()
-    return re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
-
-
 class Page:
     def __init__(self, path):
         self.path = path
@@ -93,10 +91,7 @@ class Page:
         for _, line in self.prose:
             found = re.match(r"#{1,6} +(.*?)#*$", line)
             if found:
-                name, count = slug(found.group(1)), 0
-                while (name if not count else f"{name}-{count}") in out:
-                    count += 1
-                out.add(name if not count else f"{name}-{count}")
+                numbered(slug(found.group(1)), out)
         return out
 
     def links(self):
