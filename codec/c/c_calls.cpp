@@ -72,7 +72,9 @@ Result<COptions> c_options(const tp_options* options) {
 using namespace tilepress;
 
 uint32_t tp_version(void) {
-  return 10000 * TP_VERSION_MAJOR + 100 * TP_VERSION_MINOR + TP_VERSION_PATCH;
+  constexpr uint32_t kVersion = 10000 * TP_VERSION_MAJOR + 100 * TP_VERSION_MINOR + TP_VERSION_PATCH;
+  static_assert(kVersion == TILEPRESS_PROJECT_VERSION, "tilepress.h and CMakeLists.txt name different versions");
+  return kVersion;
 }
 
 const char* tp_error(void) {
