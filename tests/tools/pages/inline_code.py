@@ -10,7 +10,8 @@ class Manual:
     SHARED = ("OPTIONS OF SEVERAL VERBS", "MEMORY TRACES")
 
     def __init__(self, path):
-        self.text = path.read_text(encoding="utf-8").replace("\\-", "-")
+        # The manual does not repeat what every verb has.
+        self.text = path.read_text(encoding="utf-8").replace("\\-", "-") + "\n--help\n"
         sections, shared = {}, ""
         for kind, heading, text in re.findall(r"^\.(S[HS]) (.*)\n((?:(?!\.S[HS] ).*\n?)*)", self.text, re.M):
             if kind == "SS":

@@ -8,6 +8,8 @@ import textwrap
 import zlib
 from pathlib import Path
 
+from markdown_page import Command
+
 # What stands for the reader's own names.
 STAND_INS = [("PROGRAM", "glmark2-es2"), ("IMAGE…", "shots/*.png"), ("TRACE…", "traces/*.trace")]
 # Commands that take too long or need what is not here. Their verbs and options are compared with the manual instead.
@@ -124,6 +126,9 @@ class PageRun:
                         self.take(command)
             elif block.language == "python" or PYTHON.search(textwrap.dedent("\n".join(block.lines))):
                 self.compile_python(block)
+        for line, code in self.page.inline_code():
+            if SCRIPTS.match(code) and " " in code:
+                self.check_script(Command(line, code))
         return self
 
     def take(self, command):
@@ -146,7 +151,7 @@ class PageRun:
         if not path.is_file():
             self.fault(command.line, f"{first_word(command.text)}: there is no such file")
             return
-        for option in re.findall(r"(?<=\s)--[a-z-]+", command.text):
+        for option in re.findall(r"(?<=\s)--[a-z-]+", re.split(r"&&|\||;", command.text)[0]):
             if option not in path.read_text():
                 self.fault(command.line, f"{first_word(command.text)} has no option {option}")
 
