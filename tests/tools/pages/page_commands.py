@@ -126,6 +126,8 @@ class PageRun:
                         self.take(command)
             elif block.language == "python" or PYTHON.search(textwrap.dedent("\n".join(block.lines))):
                 self.compile_python(block)
+            elif block.lines[0].startswith("#include"):
+                self.compile_c(block)
         for line, code in self.page.inline_code():
             if SCRIPTS.match(code) and " " in code:
                 self.check_script(Command(line, code))
@@ -179,3 +181,9 @@ class PageRun:
             compile(textwrap.dedent("\n".join(block.lines)), str(self.page.path), "exec")
         except SyntaxError as error:
             self.fault(block.line + (error.lineno or 1) - 1, f"not Python: {error.msg}")
+
+    def compile_c(self, block):
+        done = subprocess.run(["cc", "-std=c11", "-Wall", "-Werror", "-fsyntax-only", "-I", str(self.tree / "codec/include"), "-xc", "-"],
+                              input="\n".join(block.lines), capture_output=True, text=True, timeout=60, check=False)
+        if done.returncode != 0:
+            self.fault(block.line, done.stderr.strip())

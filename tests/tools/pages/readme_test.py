@@ -6,6 +6,7 @@ Usage: readme_test.py TILEPRESS TREE SAMPLE_PROGRAM FOLDER_OF_SHIMS
 - A link leads to a file of the tree, and its anchor to a heading.
 - A shell block is run among small samples. Its output has the lines that the page shows, but for numbers: further lines may
   stand between. A block that cannot run has <!-- not run: REASON --> above it. page_commands.py lists programs and verbs that are never run.
+- Python blocks and whole C programs compile.
 - Verbs and options in `inline code` are in the manual page. Schemes with their keys are accepted, and the README's table has all of them."""
 import re
 import sys
