@@ -41,7 +41,7 @@ def mentions(text, option):
 
 
 def complete(verb):
-    script = (f"PATH='{Path(TILEPRESS).resolve().parent}':$PATH; source '{TOOLS}/completion.bash'; COMP_WORDS=(tilepress {verb} --); COMP_CWORD=2; "
+    script = (f"PATH='{Path(TILEPRESS).resolve().parent}':$PATH; source '{TOOLS}/completion/tilepress.bash'; COMP_WORDS=(tilepress {verb} --); COMP_CWORD=2; "
               f"_tilepress tilepress -- {verb}; printf '%s\\n' \"${{COMPREPLY[@]}}\"")
     return set(subprocess.run(["bash", "-c", script], capture_output=True, text=True, timeout=60, check=True).stdout.split())
 

@@ -173,7 +173,7 @@ int verb_unpack(int argc, char** argv) {
   app.add_option("-o,--output", options.output, "Folder for the images")->type_name("DIR");
   app.add_option("--format", options.format,
                  "png, or raw: the pixels as memory holds them; rgba is the same as raw (default: png)")
-      ->type_name("NAME")
+      ->type_name("png|raw|rgba")
       ->check(CLI::IsMember({"png", "raw", "rgba"}));
   RunOptions run;
   add_run_option(app, run, "plugin", "Shared library with the file's scheme; repeat for more");

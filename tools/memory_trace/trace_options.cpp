@@ -30,9 +30,9 @@ constexpr FormatName kFormatNames[] = {
     {"ramulator2-data", TraceFormat::kRamulator2Data},
 };
 
-std::string format_list() {
+std::string format_list(const std::string& separator = ", ") {
   std::string list;
-  for (const auto& [name, format] : kFormatNames) list += (list.empty() ? "" : ", ") + std::string(name);
+  for (const auto& [name, format] : kFormatNames) list += (list.empty() ? "" : separator) + std::string(name);
   return list;
 }
 
@@ -94,8 +94,8 @@ void add_memory_trace_options(CLI::App& app, MemoryTraceOptions& options, const 
              throw CLI::ValidationError("--trace-format " + text + ": must be one of " + format_list());
            options.format = found->format;
          },
-         "Format: " + format_list() + " (default: by the suffix of the file, before .gz or .zst)")
-      ->type_name("NAME")
+         "Format (default: by the suffix of the file, before .gz or .zst)")
+      ->type_name(format_list("|"))
       ->group(kGroup);
   app.add_option("--trace-scheme", options.scheme, "Scheme of the trace, if the run has several")
       ->type_name("SPEC")

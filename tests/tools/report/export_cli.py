@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""tilepress export, the pictures of frames, and bash completion. export_cli.py TILEPRESS GOLDEN_FOLDER COMPLETION_FILE."""
+"""tilepress export and the pictures of frames. export_cli.py TILEPRESS GOLDEN_FOLDER."""
 import csv
 import json
 import re
@@ -112,23 +112,6 @@ def check_cdf(run, page):
     expect(drawn > 100, f"only {drawn} points of the CDF")
 
 
-def complete(words, folder):
-    script = f"""source '{sys.argv[3]}'; PATH='{folder}':$PATH; COMP_WORDS=({' '.join(repr(word) for word in words)}); COMP_CWORD={len(words) - 1}
-    _tilepress tilepress {words[-1]!r} {words[-2]!r}; printf '%s\\n' "${{COMPREPLY[@]}}" """
-    done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, timeout=60)
-    return done.stdout.split()
-
-
-def check_completion(folder):
-    (folder / "tilepress").symlink_to(Path(TILEPRESS).resolve())
-    verbs = complete(["tilepress", ""], folder)
-    expect({"run", "frames", "report", "compare", "export", "schemes"} <= set(verbs), f"verbs: {verbs}")
-    expect(complete(["tilepress", "compa"], folder) == ["compare"], "a verb's beginning")
-    expect("--threshold" in complete(["tilepress", "compare", "--th"], folder), "an option's beginning")
-    expect(complete(["tilepress", "export", "--format", "g"], folder) == ["gem5"], "values of --format")
-    expect(complete(["tilepress", "run", "-s", "hu"], folder) == ["huffdcp"], "names of schemes")
-
-
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -139,7 +122,6 @@ def main():
         status, _, err = tilepress("export", run)
         expect(status == 2 and "--format" in err, "--format is required")
         check_pictures(Path(sys.argv[2]), folder)
-        check_completion(folder)
     for fault in faults[:20]:
         print("FAULT:", fault)
     sys.exit(1 if faults else 0)
