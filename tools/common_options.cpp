@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "command_line.h"
 #include "tilepress/run_option_table.h"
 
 namespace tilepress {
@@ -85,20 +86,10 @@ void add_size_option(CLI::App& app, const std::string& name, std::optional<Frame
 }
 
 void add_raw_format_option(CLI::App& app, PixelFormat& format) {
-  static constexpr std::pair<std::string_view, PixelFormat> kFormats[] = {
-      {"rgba", PixelFormat::kRgba8}, {"rgb565", PixelFormat::kRgb565}, {"rgb10a2", PixelFormat::kRgb10a2}};
-  app.add_option_function<std::string>(
-         "--format",
-         [&format](const std::string& text) {
-           for (const auto& [name, value] : kFormats)
-             if (name == text) {
-               format = value;
-               return;
-             }
-           throw CLI::ValidationError("--format " + text + ": not one of rgba, rgb565, rgb10a2");
-         },
-         "Pixel format of raw frames: rgba (.rgba files), rgb565 or rgb10a2 (default: rgba)")
-      ->type_name("NAME");
+  add_choice_option<PixelFormat>(
+      app, "--format", format,
+      {{"rgba", PixelFormat::kRgba8}, {"rgb565", PixelFormat::kRgb565}, {"rgb10a2", PixelFormat::kRgb10a2}},
+      "Pixel format of raw frames; rgba frames are .rgba files (default: rgba)");
 }
 
 CLI::Option* add_frames_option(CLI::App& app, FrameSet& frames, const std::string& name,

@@ -26,8 +26,12 @@ void add_progress_option(CLI::App& app, ProgressMode& mode) {
       "Progress on standard error (default: auto, one line on a terminal)");
 }
 
-ProgressLine::ProgressLine(ProgressMode mode, std::string what)
-    : mode_(mode), what_(std::move(what)), begin_(std::chrono::steady_clock::now()), shown_(begin_) {
+ProgressLine::ProgressLine(ProgressMode mode, std::string what, std::string unit)
+    : mode_(mode),
+      what_(std::move(what)),
+      unit_(std::move(unit)),
+      begin_(std::chrono::steady_clock::now()),
+      shown_(begin_) {
   if (mode_ == ProgressMode::kAuto && isatty(STDERR_FILENO) == 0) mode_ = ProgressMode::kNever;
 }
 
@@ -46,15 +50,15 @@ void ProgressLine::show(uint64_t done, std::optional<uint64_t> total) {
   std::optional<double> left;
   if (total && per_second > 0) left = static_cast<double>(*total - done) / per_second;
   if (mode_ == ProgressMode::kJson) {
-    nlohmann::ordered_json json = {{"progress", what_}, {"frames_done", done}, {"elapsed_s", elapsed}};
-    if (total) json["frames_total"] = *total;
+    nlohmann::ordered_json json = {{"progress", what_}, {unit_ + "_done", done}, {"elapsed_s", elapsed}};
+    if (total) json[unit_ + "_total"] = *total;
     if (left) json["eta_s"] = *left;
     tilepress::show(json.dump() + "\n");
     return;
   }
   std::string line = fmt::format("{}: {}", what_, done);
-  if (total) line += fmt::format("/{} frames, {} %", *total, *total > 0 ? done * 100 / *total : 100);
-  line += fmt::format(", {:.1f} frames/s", per_second);
+  if (total) line += fmt::format("/{} {}, {} %", *total, unit_, *total > 0 ? done * 100 / *total : 100);
+  line += fmt::format(", {:.1f} {}/s", per_second, unit_);
   if (left) line += ", " + duration_text(*left) + " left";
   show_progress(line);
 }

@@ -18,7 +18,8 @@ void add_progress_option(CLI::App& app, ProgressMode& mode);
 /// terminal; kJson prints an object per line whatever standard error is. At most ten times a second.
 class ProgressLine {
  public:
-  ProgressLine(ProgressMode mode, std::string what);
+  /// `unit`: what is counted, in the plural.
+  ProgressLine(ProgressMode mode, std::string what, std::string unit = "frames");
   ~ProgressLine();  ///< takes the line away
   /// False if show() would print nothing.
   bool is_shown() const { return mode_ != ProgressMode::kNever; }
@@ -27,7 +28,7 @@ class ProgressLine {
 
  private:
   ProgressMode mode_;
-  std::string what_;
+  std::string what_, unit_;
   std::chrono::steady_clock::time_point begin_, shown_;
 };
 

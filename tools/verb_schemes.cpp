@@ -41,13 +41,24 @@ void print_scheme(const SchemeInfo& scheme) {
   if (scheme.eight_bit_only) std::printf("            formats: RGBA8 and RGBX8 only\n");
 }
 
+/// What a group's schemes are, to follow its name.
+const char* meaning_of(SchemeGroup group) {
+  constexpr const char* kMeanings[kSchemeGroups] = {
+      "the paper's own schemes, and RAS and RED, with which it compares them. Without -s: all of these",
+      "yardsticks that were published elsewhere",
+      "yardsticks that are in shipping GPUs",
+      "made for tilepress, or registered by a program",
+  };
+  return kMeanings[static_cast<size_t>(group)];
+}
+
 void print_groups() {
   for (size_t i = 0; i < kSchemeGroups; ++i) {
     const auto group = static_cast<SchemeGroup>(i);
     bool heading = false;
     for (const SchemeInfo& scheme : scheme_registry()) {
       if (scheme.group != group) continue;
-      if (!heading) std::printf("%s%s:\n", i == 0 ? "" : "\n", name_of(group));
+      if (!heading) std::printf("%s%s: %s\n", i == 0 ? "" : "\n", name_of(group), meaning_of(group));
       heading = true;
       print_scheme(scheme);
     }
@@ -90,10 +101,17 @@ void print_presets_json() {
   std::printf("%s\n", list.dump(2).c_str());
 }
 
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  tilepress schemes\n"
+    "  tilepress schemes --json\n"
+    "  tilepress schemes --dram\n";
+
 }  // namespace
 
 int verb_schemes(int argc, char** argv) {
   CLI::App app("Lists the schemes, their sources and their keys.");
+  app.footer(kExamples);
   bool json = false, dram = false;
   RunOptions run;
   add_run_option(app, run, "plugin", "Also list the schemes of this shared library; repeat for more");

@@ -55,6 +55,19 @@ std::string display_hint(const std::string& verb) {
          "  and `tilepress replay` needs none for a recorded trace\n";
 }
 
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string word = "'";
+  for (const char letter : text) word += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+  return word + "'";
+}
+
+std::string next_command(const std::string& folder) {
+  return "  next: tilepress report " + shell_word(folder) + " -o report.html\n";
+}
+
 std::vector<std::string> missing_paths(const std::vector<std::string>& paths) {
   std::vector<std::string> missing;
   std::error_code code;

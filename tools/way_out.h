@@ -16,6 +16,12 @@ bool lacks_display();
 /// Two indented lines on how to run `verb` without a display.
 std::string display_hint(const std::string& verb);
 
+/// Returns `text` as one word of a shell's command line, in single quotes where it needs them.
+std::string shell_word(const std::string& text);
+
+/// "  next: tilepress report DIR -o report.html", a line that ends the summary of finished runs in `folder`.
+std::string next_command(const std::string& folder);
+
 /// Returns those of `paths` that do not exist. "-" exists.
 std::vector<std::string> missing_paths(const std::vector<std::string>& paths);
 

@@ -148,7 +148,8 @@ bool TraceReplay::check_folder() {
   }
   if (!fs::exists(folder_->run_path(), code)) return true;
   if (!options_.resume)
-    return fail(folder_->run_path() + " exists already (--resume keeps it if it is the same replay)");
+    return fail(folder_->run_path() +
+                " exists already (--resume keeps it if it is the same replay, --force replaces it)");
   return keep_finished_run();
 }
 

@@ -3,7 +3,9 @@
 
 Usage: slips_test.py TILEPRESS GOLDEN_FOLDER [TEST...]"""
 import os
+import re
 import shutil
+import unittest
 
 from cli_case import CliCase, golden, main
 
@@ -14,7 +16,11 @@ FILES = {
     "value.toml": "\ntile = 33\n",
     "scheme.toml": 'scheme = ["ras", "vdcp:fcv=16"]\n',
     "torn.toml": "tile 32\n",
+    "study.toml": 'name = "x"\nconfiguratons = ["vdcp"]\n',
     "sizes.toml": 'name = "x"\nconfigurations = ["vdcp:polcy=lru"]\n',
+    "axis.toml": 'name = "x"\nconfigurations = ["red"]\n[[axis]]\nnam = "a"\n',
+    "traces.toml": '[[trace]]\npaht = "x.trace"\n',
+    "tables.toml": '[[traces]]\npath = "x.trace"\n',
 }
 # Words of the command line, exit status, and what the line must hold.
 SLIPS = [
@@ -61,8 +67,11 @@ SLIPS = [
     ("run --on-full dorp -- true", USAGE, "must be block or drop (did you mean 'drop'?)"),
     ("run --via prelaod -- true", USAGE, "not one of auto, preload, glvnd (did you mean 'preload'?)"),
     ("run --trigger finsh -- true", USAGE, "did you mean 'finish'?"),
+    ("compare run run --format markdwon", USAGE, "not one of text, markdown, csv (did you mean 'markdown'?)"),
+    ("export --format gem run", USAGE, "not one of gem5, jsonl (did you mean 'gem5'?)"),
     ("corpus lsit", USAGE, "not one of list, record, verify, compare, export (did you mean 'list'?)"),
     ("study cache purne", USAGE, "not one of list, prune (did you mean 'prune'?)"),
+    ("study papre shots", FAILED, "papre: No such file or directory (did you mean 'paper'?)"),
     ("frames --frames 9-3 IMAGE", USAGE, "--frames 9-3: reversed range 9-3"),
     ("frames --size 640 IMAGE", USAGE, "must be WxH with sides in 1..65535"),
     ("frames --heatmaps 5 IMAGE", USAGE, "--heatmaps 5: must be every:N"),
@@ -71,14 +80,23 @@ SLIPS = [
     ("frames shost/0.png", FAILED, "shost/0.png: No such file or directory (did you mean 'shots/0.png'?)"),
     ("frames shots/*.jpg", FAILED, "shots/*.jpg: No such file or directory"),
     ("report rnu", FAILED, "rnu: no such folder (did you mean 'run'?)"),
+    ("replay gmae.trace", FAILED, "gmae.trace: No such file or directory (did you mean 'game.trace'?)"),
+    ("unpack --csv shosts.tpk", FAILED, "did you mean 'shots.tpk'?"),
     ("frames empty", FAILED, "empty: is a folder without images"),
+    ("report --category desk*=UI run", USAGE, "--category desk*=UI: matches no workload (there are run)"),
+    ("compare run --map red=>vdpc", USAGE, "has no scheme 'vdpc' (did you mean 'vdcp'? it has red, vdcp)"),
+    ("view run", NOTHING, "1 ended run is there; `tilepress report run -o report.html` shows it"),
     # TOML.
     ("frames --config key.toml IMAGE", USAGE, "key.toml: line 2: unknown option 'tlie' (did you mean 'tile'?)"),
     ("frames --config value.toml IMAGE", USAGE, "value.toml: line 2: --tile 33: must be a multiple of 8"),
     ("frames --config scheme.toml IMAGE", USAGE, "scheme.toml: line 1: --scheme vdcp:fcv=16: unknown key 'fcv' (did you mean 'fvc'?"),
     ("frames --config torn.toml IMAGE", USAGE, "torn.toml: line 1: "),
     ("frames --config kye.toml IMAGE", USAGE, "--config kye.toml: no such file (did you mean 'key.toml'?)"),
+    ("study study.toml shots", USAGE, "study.toml: line 2: unknown key 'configuratons' (did you mean 'configurations'?)"),
     ("study sizes.toml shots", USAGE, "sizes.toml: line 2: scheme 'vdcp:polcy=lru': unknown key 'polcy' (did you mean 'policy'?"),
+    ("study axis.toml shots", USAGE, "axis.toml: line 4: unknown key 'nam' (did you mean 'name'?)"),
+    ("replay --manifest traces.toml", USAGE, "traces.toml: line 2: unknown key 'paht' (did you mean 'path'?)"),
+    ("replay --manifest tables.toml", USAGE, "tables.toml: line 1: unknown key 'traces' (did you mean 'trace'?"),
 ]
 
 
@@ -91,6 +109,8 @@ class Slips(CliCase):
             shutil.copy(golden("odd", number), self.path(f"shots/{number}.png"))
         for name, text in FILES.items():
             self.write(name, text.encode())
+        for name in ("game.trace", "shots.tpk"):
+            self.write(name, b"")
         done = self.run_command("frames", "-q", "-s", "red", "-s", "vdcp", "-o", "run", "shots")
         self.assertEqual(done.returncode, 0, done.stderr)
 
@@ -108,22 +128,66 @@ class Slips(CliCase):
 
 
 class Guidance(CliCase):
-    def test_without_a_display_names_xvfb_run_and_replay(self):
-        said = self.run_command("run", "-o", "out", "--", "true", env={"DISPLAY": "", "WAYLAND_DISPLAY": ""})
-        self.assertEqual(said.returncode, NOTHING)
-        self.assertIn(b"xvfb-run -a tilepress run", said.stderr)
-        self.assertIn(b"tilepress replay", said.stderr)
+    def test_of_every_verb_shows_three_examples(self):
+        verbs = self.run_command("help").stdout.decode().split("Verbs:\n")[1].split("\n\n")[0]
+        for verb in re.findall(r"^  (\w+) ", verbs, re.MULTILINE):
+            if verb == "help":
+                continue
+            text = self.run_command("help", verb).stdout.decode()
+            examples = re.findall(rf"^  .*\btilepress {verb}\b", text.split("Examples:\n")[-1], re.MULTILINE)
+            self.assertGreaterEqual(len(examples), 3, verb)
 
-    def test_frames_of_a_folder_are_ordered_by_number(self):
-        os.mkdir(self.path("shots"))
-        for number, name in enumerate(("2.png", "10.png", "notes.txt", "1.png")):
-            shutil.copy(golden("odd", number), self.path("shots/" + name))
-        self.write("shots/notes.txt", b"no image")
-        rows = [self.run_command("frames", "-q", "-s", "red", "-o", "-", *words).stdout
-                for words in (["shots"], ["shots/1.png", "shots/2.png", "shots/10.png"])]
-        self.assertEqual(rows[0], rows[1])
-        self.assertEqual(rows[0].count(b"\n"), 4)
+    def test_without_a_display_names_xvfb_run_and_replay(self):
+        for words, status in ((("run", "-o", "out", "--", "true"), NOTHING), (("run", "-o", "out", "--", "false"), 1)):
+            said = self.run_command(*words, env={"DISPLAY": "", "WAYLAND_DISPLAY": ""})
+            self.assertEqual(said.returncode, status)
+            self.assertIn(b"xvfb-run -a tilepress run", said.stderr)
+            self.assertIn(b"tilepress replay", said.stderr)
+        quiet = self.run_command("run", "-q", "-o", "out", "--", "false", env={"DISPLAY": "", "WAYLAND_DISPLAY": ""})
+        self.assertEqual((quiet.returncode, quiet.stderr), (1, b""))
+
+    def test_ends_a_run_with_the_next_command(self):
+        folder = "two words"
+        done = self.run_command("frames", "-s", "red", "-o", folder, IMAGE, golden("odd", 1))
+        self.assertEqual(done.stderr.decode().splitlines()[-1], "  next: tilepress report 'two words' -o report.html")
+        self.assertEqual(done.stdout, b"")
+
+
+class Labels(CliCase):
+    def frames(self, folder, *words):
+        done = self.run_command("frames", "-q", "-s", "red", "-s", "vdcp", "-o", folder, *words, IMAGE, golden("odd", 1))
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def summary(self, *words):
+        done = self.run_command("summary", *words)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        return [line.split()[:2] for line in done.stdout.decode().splitlines()[1:3]]
+
+    def test_name_a_run_and_put_it_into_a_category(self):
+        self.frames("all/a", "--name", "menu", "--category", "UI")
+        self.frames("all/b")
+        self.assertEqual(self.summary("all", "--category", "*=3D"), [["menu", "UI"], ["b", "3D"]])
+        self.assertEqual(self.summary("all", "--category", "*=3D", "--recategorize"), [["menu", "3D"], ["b", "3D"]])
+
+    def test_compare_configurations_of_one_run(self):
+        self.frames("run")
+        self.frames("other", "--tile", "64")
+        done = self.run_command("compare", "run", "other", "--map", "red => vdcp", "--threshold", "1", "--github", "--junit", "j.xml")
+        lines = done.stdout.decode().splitlines()
+        self.assertEqual(lines[0], "run: other options: tile 32 in A, 64 in B")
+        self.assertTrue(lines[3].startswith("run       red => vdcp"), lines)
+        self.assertEqual(sum(line.startswith("::warning title=tilepress compare::run: other options") for line in lines), 1)
+        with open(self.path("j.xml"), encoding="utf-8") as file:
+            junit = file.read()
+        self.assertIn('<testcase classname="run" name="red =&gt; vdcp"', junit)
+        self.assertEqual(done.returncode, 1 if "<failure" in junit else 0)
+        worse = self.run_command("compare", "run", "--map", "vdcp => red", "--threshold", "1", "--github")
+        better = self.run_command("compare", "run", "--map", "vdcp => vdcp", "--threshold", "1", "--github")
+        self.assertEqual(sorted((worse.returncode, better.returncode)), [0, 1])
+        self.assertIn(b"\n::error title=tilepress compare run::rate of vdcp => red fell by ", worse.stdout)
+        self.assertIn(b"::notice title=tilepress compare::1 rate compared, none fell", better.stdout)
 
 
 if __name__ == "__main__":
+    unittest.TestCase.maxDiff = None
     main()

@@ -94,7 +94,8 @@ void show_summary(const CapturedProcess& process, const RunRecord& run, bool run
        fmt::format("  rows: {}/schemes.csv and frames.csv\n", process.run_path));
 }
 
-void close_and_add(const CapturedProcess& process, const ChildEnd& child, bool quiet, Harvest& sum) {
+void close_and_add(const CapturedProcess& process, const ChildEnd& child, const LaunchOptions& options,
+                   Harvest& sum) {
   const auto note = [&sum](const std::string& error) {
     say(MessageLevel::kError, error);
     sum.failed = true;
@@ -105,7 +106,9 @@ void close_and_add(const CapturedProcess& process, const ChildEnd& child, bool q
   if (!read) return note(read.error().text);
   RunRecord& run = *read;
   if (!running) {
-    if (const auto closed = close_run(end_of(process, child), run); !closed) return note(closed.error().text);
+    RunEnd end = end_of(process, child);
+    end.further = options.labels;
+    if (const auto closed = close_run(end, run); !closed) return note(closed.error().text);
     if (const auto converted = convert_dumped_frames(process.run_path); !converted)
       note(converted.error().text);
   }
@@ -113,7 +116,7 @@ void close_and_add(const CapturedProcess& process, const ChildEnd& child, bool q
   sum.seen += run.counts.seen;
   for (const FrameStatistics& frame : run.frames)
     for (const SchemeStatistics& scheme : frame.schemes) sum.mismatched_blocks += scheme.mismatched_blocks;
-  if (!quiet) show_summary(process, run, running);
+  if (!options.quiet) show_summary(process, run, running);
   if (run.state == "failed") note(process.run_path + ": " + run.reason);
 }
 
@@ -131,7 +134,7 @@ Result<Launch> launch_program(const LaunchOptions& options, SessionFolder& sessi
   for (const std::string& line : session.log_lines()) show(line + "\n");
   Launch launch{*child, {}, session.captured()};
   for (const CapturedProcess& process : launch.processes)
-    close_and_add(process, *child, options.quiet, launch.found);
+    close_and_add(process, *child, options, launch.found);
   return launch;
 }
 

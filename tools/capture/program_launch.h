@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "capture/child_process.h"
@@ -21,6 +22,7 @@ struct LaunchOptions {
   bool present_times = false;  ///< the shim notes when each frame was presented
   bool quiet = false;          ///< no summaries
   std::vector<std::string> program;
+  std::vector<std::pair<std::string, std::string>> labels;  ///< string members for each run.json
 };
 
 /// Sums over the run folders of a session.

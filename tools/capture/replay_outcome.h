@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tilepress/replay_batch.h"
 
@@ -11,8 +12,9 @@ namespace tilepress {
 /// it.
 std::string interruption_text(const ReplayBatch& batch);
 
-/// Writes one message per failed trace, and the last lines of its retracer. Returns the exit status.
-int report_failures(const ReplayBatch& batch);
+/// Writes one message per failed trace, and the last lines of its retracer. Returns the exit status. Traces
+/// in `named` have their message already.
+int report_failures(const ReplayBatch& batch, const std::vector<std::string>& named);
 
 /// Converts the dumped frames of every run to PNG. Returns false after a message for each run that failed.
 bool convert_all_dumped_frames(const ReplayBatch& batch);

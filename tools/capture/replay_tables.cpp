@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "counted.h"
 #include "printable.h"
 #include "streams/output_file.h"
 #include "tilepress/csv_rows.h"
@@ -124,8 +125,8 @@ std::string rate_table(const std::vector<RateRow>& rows, const std::string& unit
   const std::vector<CategoryMean> means = category_means(rows);
   for (size_t i = 0; i < means.size();) {
     if (means[i].category.empty() && means[i].traces < 2) break;  // the mean over one trace is that trace
-    Row line = {"harmonic mean", mean_label(means[i].category), fmt::format("({} {}s)", means[i].traces, unit), "",
-                ""};
+    Row line = {"harmonic mean", mean_label(means[i].category), "(" + counted(means[i].traces, unit) + ")",
+                "", ""};
     const std::string& category = means[i].category;
     std::vector<std::string> cells(schemes.size(), "-");
     for (; i < means.size() && means[i].category == category; ++i) {

@@ -4,7 +4,9 @@
 #include <filesystem>
 
 #include "capture/mesa_manifest.h"
+#include "tilepress/nearest_word.h"
 #include "toml_text.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -15,7 +17,11 @@ namespace fs = std::filesystem;
 Result<void> take_texts(const toml::table& entry, const std::map<std::string_view, std::string*>& places) {
   for (const auto& [key, node] : entry) {
     const auto place = places.find(key.str());
-    if (place == places.end()) return at_line(node, "unknown key '" + std::string(key.str()) + "'");
+    if (place == places.end()) {
+      std::vector<std::string_view> known;
+      for (const auto& each : places) known.push_back(each.first);
+      return at_line(node, "unknown key '" + std::string(key.str()) + "'" + nearest_hint(key.str(), known));
+    }
     const auto text = node.value_exact<std::string>();
     if (!text || text->empty()) return at_line(node, std::string(key.str()) + " is no text");
     *place->second = *text;
@@ -54,8 +60,11 @@ Result<ReplayInput> take_entry(const toml::table& entry, const fs::path& folder)
 }
 
 Result<std::vector<ReplayInput>> take_all(const toml::table& table, const fs::path& folder) {
+  constexpr std::string_view kKeys[] = {"trace"};
   for (const auto& [key, node] : table)
-    if (key.str() != "trace") return at_line(node, "unknown key '" + std::string(key.str()) + "'");
+    if (key.str() != kKeys[0])
+      return at_line(node, "unknown key '" + std::string(key.str()) + "'" +
+                               nearest_hint(key.str(), kKeys, "a manifest has [[trace]] tables"));
   const toml::array* list = table.get_as<toml::array>("trace");
   if (list == nullptr || list->empty()) return at_line(table, "lists no [[trace]]");
   std::vector<ReplayInput> inputs;
@@ -76,6 +85,7 @@ std::string replay_name(const std::string& trace_path) {
 }
 
 Result<std::vector<ReplayInput>> read_manifest(const std::string& path, const std::string& trace_folder) {
+  if (!missing_paths({path}).empty()) return Error{ErrorKind::kFile, missing_text(path)};
   if (is_mesa_manifest(path)) return read_mesa_manifest(path, trace_folder);
   const auto table = parse_toml([&] { return toml::parse_file(path); });
   if (!table) return about(path, table.error());

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "capture/output_folder.h"
+#include "capture/replaced_runs.h"
 #include "capture/replay_choices.h"
 #include "capture/replay_outcome.h"
 #include "capture/replay_tables.h"
@@ -15,6 +16,7 @@
 #include "report/category_rules.h"
 #include "streams/ending_signals.h"
 #include "verb.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -42,7 +44,7 @@ struct VerbOptions {
   MemoryTraceOptions trace;
   ProgressMode progress = ProgressMode::kAuto;
   unsigned jobs = 1;
-  bool verbose = false, quiet = false;
+  bool force = false, verbose = false, quiet = false;
 };
 
 std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
@@ -63,6 +65,7 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
       ->type_name("N")
       ->check(CLI::Range(1u, 1024u));
   app.add_flag("--resume", replay.resume, "Keep the finished runs of a batch and replay the other traces");
+  app.add_flag("--force", options.force, "Replace the runs of earlier replays")->excludes("--resume");
   add_replay_choices(app, replay.retracer, replay.display, replay.timeout);
   add_memory_trace_options(app, options.trace, std::string(kMemoryTraceHelp) + "; {name} in it stands for the name of a trace");
   add_trace_refresh_option(app, options.trace);
@@ -90,6 +93,9 @@ Result<std::vector<ReplayInput>> gather_inputs(const VerbOptions& options) {
     if (!listed) return listed.error();
     inputs.insert(inputs.end(), listed->begin(), listed->end());
   }
+  std::vector<std::string> names;
+  for (const ReplayInput& input : inputs) names.push_back(input.name);
+  if (const auto checked = check_category_rules(options.categories, names); !checked) return checked.error();
   for (ReplayInput& input : inputs) input.category = category_by_rules(options.categories, input.name, input.category);
   std::map<std::string, std::string> taken;
   for (const ReplayInput& input : inputs) {
@@ -111,6 +117,12 @@ std::vector<LoggedRun> captured_runs(const ReplayBatch& batch) {
   return runs;
 }
 
+std::vector<std::string> missing_traces(const std::vector<ReplayInput>& inputs) {
+  std::vector<std::string> paths;
+  for (const ReplayInput& input : inputs) paths.push_back(input.path);
+  return missing_paths(paths);
+}
+
 }  // namespace
 
 int verb_replay(int argc, char** argv) {
@@ -121,13 +133,22 @@ int verb_replay(int argc, char** argv) {
   if (const auto fits = check_trace_path(options.trace, inputs->size()); !fits)
     return fail(kExitUsage, fits.error());
 
+  const std::vector<std::string> missing = missing_traces(*inputs);
+  for (const std::string& path : missing) fail(kExitFailed, missing_text(path));
+  if (missing.size() == inputs->size()) return kExitFailed;
+
   TemporaryFolder links;
   const auto shim = preloadable_shim(false, links);
   if (!shim) return fail(kExitFailed, shim.error());
   options.replay.shim = *shim;
-  const std::string output = absolute_folder(options.replay.run.output);
+  const std::string given_output = options.replay.run.output, output = absolute_folder(given_output);
   options.replay.run.output = output;
 
+  ReplacedRuns replaced;
+  for (const ReplayInput& input : *inputs)
+    if (options.force)
+      if (const auto moved = replaced.set_aside(output + "/" + input.name); !moved)
+        return fail(kExitFailed, moved.error());
   ReplayBatch batch(*inputs, options.replay);
   {
     ProgressLine progress(options.progress, "replay");
@@ -142,7 +163,7 @@ int verb_replay(int argc, char** argv) {
     status = fail(128 + signal, signal_text(signal) + ": " + interruption);
   } else {
     if (!options.quiet) show(rate_table(rate_rows(batch.replays()), "trace"));
-    status = report_failures(batch);
+    status = report_failures(batch, missing);
     if (!write_run_traces(captured_runs(batch), options.trace, false, options.quiet) && status == kExitDone)
       status = kExitFailed;
   }
@@ -150,6 +171,7 @@ int verb_replay(int argc, char** argv) {
   if (!std::filesystem::exists(output, code)) return status;
   if (const auto written = write_replay_csv(output, rate_rows(batch.replays())); !written)
     return fail(kExitFailed, written.error());
+  if (!options.quiet && interruption.empty()) show(next_command(given_output));
   return status;
 }
 

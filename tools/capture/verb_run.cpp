@@ -14,6 +14,8 @@
 #include "counted.h"
 #include "tilepress/program_search.h"
 #include "verb.h"
+#include "way_out.h"
+#include "workload_options.h"
 
 namespace tilepress {
 namespace {
@@ -48,6 +50,8 @@ std::optional<int> parse_options(int argc, char** argv, RunVerbOptions& options)
       app, "--via", launch.via,
       {{"auto", ShimRoad::kAuto}, {"preload", ShimRoad::kPreload}, {"glvnd", ShimRoad::kGlvnd}},
       "How the shim gets into the program (default: auto)");
+  WorkloadLabel workload;
+  add_workload_options(app, workload);
   app.add_flag("-q,--quiet", launch.quiet, "No summary");
   app.add_flag("--measure-overhead", options.measure_overhead,
                "Run the program with and without capture, compare frame times, write DIR/overhead.csv");
@@ -62,6 +66,7 @@ std::optional<int> parse_options(int argc, char** argv, RunVerbOptions& options)
       ->type_name("S")
       ->check(CLI::Range(0.1, 86400.0));
   if (auto status = parse_launch_line(app, argc, argv, launch.program)) return status;
+  launch.labels = workload.members();
   if (launch.run.output == "-") return fail(kExitUsage, "--output -: standard output is the program's");
   if (const auto asked = ask_for_trace(options.trace, launch.run); !asked) return fail_trace(asked.error(), kExitLauncherFailed);
   set_message_level(launch.run.log_level);
@@ -89,6 +94,7 @@ int verb_run(int argc, char** argv) {
   const auto shim = preloadable_shim(launch.run.all_targets, links);
   if (!shim) return fail(kExitLauncherFailed, shim.error());
   launch.shim = *shim;
+  const std::string given_output = launch.run.output;
   launch.run.output = absolute_folder(launch.run.output);
   OutputFolder output;
   if (const auto made = output.prepare(launch.run.output); !made)
@@ -100,7 +106,14 @@ int verb_run(int argc, char** argv) {
   if (!done) return fail(start_status(done.error()), done.error());
   const Harvest& found = done->found;
   const bool traced = write_run_traces(captured_runs(done->processes), options.trace, true, launch.quiet);
-  if (const int status = done->child.own_status(); status != 0) return status;
+  if (!launch.quiet && found.captured > 0) show(next_command(given_output));
+  if (const int status = done->child.own_status(); status != 0) {
+    if (!launch.quiet && found.captured == 0 && !done->child.signal && lacks_display())
+      show(fmt::format("tilepress: {}: ended with status {}, no frame captured\n", launch.program.front(),
+                       status) +
+           display_hint("run"));
+    return status;
+  }
   if (found.failed || !traced) return kExitLauncherFailed;
   if (found.captured == 0) return report_nothing_captured(launch, session, found.seen, *program);
   if (found.mismatched_blocks > 0)

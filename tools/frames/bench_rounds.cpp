@@ -138,7 +138,8 @@ void Bench::round(bool counted) {
 }  // namespace
 
 std::vector<BenchRow> bench_set(const BenchFrames& frames, const std::vector<SchemeSpec>& schemes,
-                                const ModelOptions& model, uint32_t rounds) {
+                                const ModelOptions& model, uint32_t rounds,
+                                const std::function<void(uint32_t)>& round_done) {
   Bench bench{.frames = frames, .model = model, .operations = {}};
   bench.add_yardsticks();
   for (const SchemeSpec& scheme : schemes) {
@@ -149,7 +150,10 @@ std::vector<BenchRow> bench_set(const BenchFrames& frames, const std::vector<Sch
   bench.add_statistics("all", schemes, false);
   bench.add_statistics("metrics", {}, true);
   bench.round(false);
-  for (uint32_t i = 0; i < rounds; ++i) bench.round(true);
+  for (uint32_t i = 0; i < rounds; ++i) {
+    bench.round(true);
+    round_done(i + 1);
+  }
 
   const double pixels =
       static_cast<double>(frames.width) * frames.height * static_cast<double>(frames.pixels.size());

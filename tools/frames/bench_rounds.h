@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,9 @@ struct BenchRow {
   double cycles_per_pixel = 0;  ///< of the time-stamp counter; 0 on machines without one
 };
 
+/// Calls `round_done` after each round with the number of rounds so far.
 std::vector<BenchRow> bench_set(const BenchFrames& frames, const std::vector<SchemeSpec>& schemes,
-                                const ModelOptions& model, uint32_t rounds);
+                                const ModelOptions& model, uint32_t rounds,
+                                const std::function<void(uint32_t)>& round_done);
 
 }  // namespace tilepress

@@ -13,6 +13,7 @@
 #include "tilepress/block_log.h"
 #include "tilepress/run_directory.h"
 #include "tilepress/run_reader.h"
+#include "workload_options.h"
 
 namespace tilepress {
 
@@ -23,6 +24,7 @@ struct FramesOptions {
   std::optional<FrameSize> size;
   ProgressMode progress = ProgressMode::kAuto;
   uint32_t jobs = 1;
+  WorkloadLabel workload;
   std::string cdf_path;  ///< empty: no CDF file
   FrameSet cdf_frames;
   MemoryTraceOptions trace;

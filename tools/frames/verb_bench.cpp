@@ -7,12 +7,15 @@
 #include "common_options.h"
 #include "counted.h"
 #include "frames/bench_rounds.h"
+#include "frames/image_folders.h"
 #include "frames/image_frames.h"
+#include "progress_line.h"
 #include "streams/output_file.h"
 #include "tilepress/csv_table.h"
 #include "tilepress/scheme.h"
 #include "tilepress/simd.h"
 #include "verb.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -113,11 +116,10 @@ std::optional<int> parse(int argc, char** argv, BenchOptions& options) {
   app.add_option_function<std::string>(
          "--simd",
          [](const std::string& name) {
-           std::string known;
-           for (std::string_view target : simd_targets())
-             known += (known.empty() ? "" : ", ") + std::string(target);
+           const std::vector<std::string_view> known = simd_targets();
            if (!force_simd_target(name))
-             throw CLI::ValidationError("--simd " + name + ": not one of " + known);
+             throw CLI::ValidationError("--simd " + name + ": not one of " + listed_words(known, ", ") +
+                                        nearest_hint(name, known));
          },
          "Instruction set (default: the best this machine has)")
       ->type_name("TARGET");
@@ -134,15 +136,21 @@ int verb_bench(int argc, char** argv) {
     if (const auto opened = file.open(options.csv_path, true); !opened)
       return fail(kExitFailed, opened.error());
   std::string csv = csv_header(kColumns);
-  for (const ImageSet& set : split_sets(options.images)) {
+  const auto paths = expand_image_folders(
+      options.images, [&](const std::string& path) { return options.size && path.ends_with(".rgba"); });
+  if (!paths) return fail(kExitFailed, paths.error());
+  for (const std::string& path : missing_paths(*paths)) return fail(kExitFailed, missing_text(path));
+  for (const ImageSet& set : split_sets(*paths)) {
     const auto frames = load_set(set, options);
     if (!frames) return fail(kExitFailed, frames.error());
     if (frames->pixels.empty())
       return fail(kExitNothingCaptured, set.name + ": --frames and --every leave no frame");
     if (const auto lines = unsupported_schemes(options.run.schemes, frames->format); !lines.empty())
       return fail(kExitFailed, set.name + ": " + lines.front());
+    ProgressLine progress(ProgressMode::kAuto, "bench", "rounds");
     const std::vector<BenchRow> rows =
-        bench_set(*frames, options.run.schemes, options.run.model, options.rounds);
+        bench_set(*frames, options.run.schemes, options.run.model, options.rounds,
+                  [&](uint32_t done) { progress.show(done, options.rounds); });
     show(table_text(set.name, *frames, rows));
     for (const BenchRow& row : rows) append_csv_row(kColumns, Row{set.name, row}, csv);
   }

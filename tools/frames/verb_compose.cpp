@@ -10,8 +10,10 @@
 #include "frames/composition.h"
 #include "frames/frame_size.h"
 #include "frames/packed_reader.h"
+#include "progress_line.h"
 #include "streams/output_file.h"
 #include "verb.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -94,6 +96,7 @@ Result<uint64_t> compose_frames(ComposeOptions& options, const PackedFiles& file
                                 OutputFile& out, ComposedTrace* trace, ComposedSummary& summary) {
   const uint64_t count = frame_count(files);
   uint64_t taken = 0;
+  ProgressLine progress(options.quiet ? ProgressMode::kNever : ProgressMode::kAuto, "compose");
   for (uint64_t frame = 0; frame < count; ++frame) {
     if (!options.frames.contains(frame)) continue;
     if (const auto shown = show_frame(frame, taken == 0, files, layers); !shown) return shown.error();
@@ -108,6 +111,7 @@ Result<uint64_t> compose_frames(ComposeOptions& options, const PackedFiles& file
       if (const auto added = trace->add(frame, layers, *reads); !added) return added.error();
     for (size_t i = 0; i < layers.size() && out.is_open(); ++i)
       out.write(composed_csv_row(frame, i, files[i]->path, layers[i], (*reads)[i]));
+    progress.show(frame + 1, count);
     // DCP stores frame 0 raw: the sums leave it out, unless there is no other frame.
     if (frame == 0 && count > 1 && options.frames.last() != 0u) continue;
     ++summary.frames;
@@ -200,6 +204,7 @@ int verb_compose(int argc, char** argv) {
   if (options.places.size() > options.files.size())
     return fail(kExitUsage, "--at: given " + counted(options.places.size(), "time") + " for " +
                                 counted(options.files.size(), "file"));
+  for (const std::string& path : missing_paths(options.files)) return fail(kExitFailed, missing_text(path));
   options.trace.force = options.force;
   if (!options.trace.path.empty())
     if (const auto settled = settle_trace_options(options.trace); !settled) return fail_trace(settled.error());

@@ -10,6 +10,7 @@
 #include "streams/ending_signals.h"
 #include "summary_table.h"
 #include "verb.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -39,13 +40,14 @@ bool wants_any(const RunOptions& options, uint64_t frames) {
   return false;
 }
 
-RunInfo run_info(int argc, char** argv) {
+RunInfo run_info(int argc, char** argv, const WorkloadLabel& workload) {
   RunInfo info;
   info.command = {"tilepress"};
   info.command.insert(info.command.end(), argv, argv + argc);
   info.program = "tilepress";
   info.pid = getpid();
   info.via = "frames";
+  info.further = workload.members();
   return info;
 }
 
@@ -73,7 +75,9 @@ int end_run(Result<void> done, const FramesOptions& options, FramesRun& run) {
   if (done && !options.to_stdout()) done = convert_dumped_frames(options.run.output);
   if (!options.quiet && record.counts.captured > 0) {
     show(summary_table(record, "frames"));
-    if (!options.to_stdout()) show("  rows: " + options.run.output + "/schemes.csv and frames.csv\n");
+    if (!options.to_stdout())
+      show("  rows: " + options.run.output + "/schemes.csv and frames.csv\n" +
+           next_command(options.run.output));
   }
   if (done && record.counts.captured > 0) done = run.write_memory_trace();
   if (!done) return fail(kExitFailed, done.error());
@@ -91,6 +95,7 @@ std::optional<int> parse(int argc, char** argv, FramesOptions& options) {
                  "Images or movies of 8 bits a channel, frame caches, raw .rgba files, or - for raw frames")
       ->type_name("...")
       ->required();
+  add_workload_options(app, options.workload);
   add_size_option(app, "size", options.size, "Size of raw .rgba frames");
   app.add_option("-j,--jobs", options.jobs, "Number of threads (default: 1); the results are the same for any number")
       ->type_name("N")
@@ -121,7 +126,8 @@ int verb_frames(int argc, char** argv) {
     return fail(kExitNothingCaptured, nothing_wanted_text(*count));
 
   FramesRun run(images, options);
-  if (const auto begun = run.open(run_info(argc, argv)); !begun) return fail(kExitFailed, begun.error());
+  if (const auto begun = run.open(run_info(argc, argv, options.workload)); !begun)
+    return fail(kExitFailed, begun.error());
   const auto done = run.process();
   const int signal = noted_signal();
   if (signal != 0 && !(done && *done)) return end_on_signal(signal, images, options, run);

@@ -12,6 +12,7 @@
 #include "frames/image_frames.h"
 #include "frames/packed_writer.h"
 #include "frames/verify_error.h"
+#include "progress_line.h"
 #include "streams/output_file.h"
 #include "tilepress/run_options.h"
 #include "tilepress/scheme.h"
@@ -50,6 +51,7 @@ Result<PackTotals> pack_frames(ImageFrames& images, const PackOptions& options, 
   FrameStatistics statistics;
   CompressedSurface surface;
   PackTotals totals;
+  ProgressLine progress(options.quiet ? ProgressMode::kNever : ProgressMode::kAuto, "pack");
   for (uint64_t number = 0; !last || number <= *last; ++number) {
     const auto read = images.read(number, frame);
     if (!read) return read.error();
@@ -63,6 +65,7 @@ Result<PackTotals> pack_frames(ImageFrames& images, const PackOptions& options, 
       return about(options.output, appended.error());
     totals.all += scheme;
     if (!statistics.warmup) totals.measured += scheme;
+    progress.show(number + 1, images.count());
   }
   if (writer.count() == 0) return totals;
   if (const auto finished = writer.finish(); !finished) return about(options.output, finished.error());

@@ -9,12 +9,14 @@
 #include "counted.h"
 #include "frames/image_writer.h"
 #include "frames/packed_reader.h"
+#include "progress_line.h"
 #include "streams/output_file.h"
 #include "tilepress/csv_table.h"
 #include "tilepress/run_options.h"
 #include "tilepress/statistics.h"
 #include "tilepress/surface_reader.h"
 #include "verb.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -125,6 +127,7 @@ Result<uint32_t> unpack_frames(PackedFileReader& packed, const UnpackOptions& op
   CompressedSurface surface;
   Part part;
   uint32_t written = 0;
+  ProgressLine progress(options.quiet ? ProgressMode::kNever : ProgressMode::kAuto, "unpack");
   for (uint32_t number = 0; number < packed.count(); ++number) {
     if (options.frame ? number != *options.frame : !options.frames.contains(number)) continue;
     part.number = number;
@@ -139,6 +142,7 @@ Result<uint32_t> unpack_frames(PackedFileReader& packed, const UnpackOptions& op
       std::fputs(csv_row(part, surface).c_str(), stdout);
     else if (options.rect && !options.quiet)
       show(bursts_text(part, surface));
+    progress.show(number + 1, packed.count());
   }
   return written;
 }
@@ -194,6 +198,7 @@ int verb_unpack(int argc, char** argv) {
   if (auto status = parse_command_line(app, argc, argv)) return *status;
   if (options.output.empty() && !options.rect && !options.csv)
     return fail(kExitUsage, "unpack: nothing to do; give -o DIR, --rect or --csv");
+  for (const std::string& path : missing_paths({options.file})) return fail(kExitFailed, missing_text(path));
   return unpack(options);
 }
 

@@ -16,6 +16,7 @@
 
 #include "command_line.h"
 #include "live/capture_screen.h"
+#include "live/ended_runs.h"
 #include "live/running_captures.h"
 #include "verb.h"
 
@@ -104,12 +105,20 @@ class CaptureList {
   std::map<std::string, std::unique_ptr<Watch>> watches_;
 };
 
+std::vector<std::string> waiting_lines(const std::vector<std::string>& folders) {
+  std::vector<std::string> lines = {"waiting for a capture in " + folders.front() + " …"};
+  for (const std::string& folder : folders)
+    if (const std::string ended = ended_runs_text(folder); !ended.empty())
+      lines.push_back(folder + ": " + ended);
+  return lines;
+}
+
 void show_screen(const CaptureList& captures, const std::vector<std::string>& folders) {
   winsize size{};
   const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 4;
   const size_t columns = known ? size.ws_col : 80, rows = known ? size.ws_row : 24;
   std::vector<std::string> lines = captures.lines(columns);
-  if (captures.empty()) lines.push_back("waiting for a capture in " + folders.front() + " …");
+  if (captures.empty()) lines = waiting_lines(folders);
   std::string out = "\x1b[H";
   if (lines.size() + 2 > rows) {
     const size_t more = lines.size() + 3 - rows;
@@ -122,6 +131,12 @@ void show_screen(const CaptureList& captures, const std::vector<std::string>& fo
   std::fflush(stdout);
 }
 
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  tilepress top\n"
+    "  tilepress top --interval 0.2 out\n"
+    "  tilepress top --once out\n";
+
 }  // namespace
 
 int verb_top(int argc, char** argv) {
@@ -130,6 +145,7 @@ int verb_top(int argc, char** argv) {
   bool once = false;
   CLI::App app{
       "Shows running captures: frames per second, rates, FVC coverage, queue and cost. It only reads."};
+  app.footer(kExamples);
   app.add_option("DIR", folders, "Output folders of `tilepress run` (default: tilepress-out)");
   app.add_option("--interval", interval_s, "Seconds between two updates (default: 1)")
       ->type_name("S")
@@ -142,7 +158,11 @@ int verb_top(int argc, char** argv) {
   captures.refresh();
   const int wait_ms = static_cast<int>(interval_s * 1000);
   if (once || !isatty(STDOUT_FILENO)) {
-    if (captures.empty()) return fail(kExitNothingCaptured, folders.front() + ": no running capture");
+    if (captures.empty()) {
+      const std::string ended = ended_runs_text(folders.front());
+      return fail(kExitNothingCaptured,
+                  folders.front() + ": no running capture" + (ended.empty() ? "" : "; " + ended));
+    }
     poll(nullptr, 0, wait_ms);  // frames per second need a second snapshot
     captures.refresh();
     for (const std::string& line : captures.lines(200)) std::printf("%s\n", line.c_str());

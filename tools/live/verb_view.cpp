@@ -10,15 +10,22 @@
 #include "capture/shim_path.h"
 #include "command_line.h"
 #include "frames/image_frames.h"
+#include "live/ended_runs.h"
 #include "live/view/view_request.h"
 #include "streams/standard_streams.h"
+#include "tilepress/run_reader.h"
 #include "verb.h"
 
 namespace tilepress {
 
 constexpr const char* kWindow = "tilepress-view";
 
-constexpr const char* kKeys =
+constexpr const char* kHelpTail =
+    "Examples:\n"
+    "  tilepress view\n"
+    "  tilepress view -s hdcp --overlay only out\n"
+    "  xvfb-run -a tilepress view --screenshot view.png out\n"
+    "\n"
     "Keys: arrows or 1..9 scheme, h heat map, space freeze, + - zoom, f fit, Tab next capture, ? help,\n"
     "q quit. The captured program goes on when the window is closed or killed. The window is never part\n"
     "of a frame.\n";
@@ -29,7 +36,7 @@ int verb_view(int argc, char** argv) {
   CLI::App app{
       "Shows the last frame of a running capture in a window, with the bits of each block and the schemes' "
       "rates."};
-  app.footer(kKeys);
+  app.footer(kHelpTail);
   app.add_option("DIR", request.folder, "A run directory, or a folder of some (default: tilepress-out)");
   app.add_option("-s,--scheme", request.scheme, "The scheme shown first, as the run names it")
       ->type_name("SPEC");
@@ -61,6 +68,10 @@ int verb_view(int argc, char** argv) {
       ->check(CLI::Range(1, 86400));
   if (const auto stop = parse_command_line(app, argc, argv)) return *stop;
 
+  if (const std::string ended = ended_runs_text(request.folder); !ended.empty()) {
+    if (holds_run(request.folder)) return fail(kExitNothingCaptured, request.folder + ": " + ended);
+    say(MessageLevel::kWarning, request.folder + ": waiting for a capture; " + ended);
+  }
   const auto window = find_shim(kWindow);
   if (!window) return fail(kExitFailed, window.error());
   // In a shell under `tilepress run`, the shim would capture the window.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "counted.h"
 #include "sections.h"
 
 namespace tilepress {
@@ -22,11 +23,10 @@ static std::string scheme_chart(const Batch& batch, size_t index) {
          fmt::format("{}: coverage {}, rate {}", run.name, shown_number(coverage), shown_number(rate))});
   }
   if (points.empty()) return "<p>No workload has a rate of this scheme.</p>";
-  return scatter_chart(
-      points, AxisScale::linear(1, 0.1), AxisScale::for_rates(range.low, range.high),
-      "FVC coverage (share of pixels)", "rate of " + scheme, kPaperCoverageThreshold,
-      fmt::format("Rate of {} against FVC coverage, {} workloads. The table has all figures.", scheme,
-                  points.size()));
+  return scatter_chart(points, AxisScale::linear(1, 0.1), AxisScale::for_rates(range.low, range.high),
+                       "FVC coverage (share of pixels)", "rate of " + scheme, kPaperCoverageThreshold,
+                       fmt::format("Rate of {} against FVC coverage, {}. The table has all figures.", scheme,
+                                   counted(points.size(), "workload")));
 }
 
 Section coverage_section(const Batch& batch) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tilepress/csv_table.h"
@@ -10,11 +11,11 @@
 namespace tilepress {
 
 constexpr size_t kDenseColumns = 14;  ///< a table with more is set smaller
-/// A column name that may be broken after its underscores.
-static std::string breakable(std::string_view name) {
-  std::string out;
-  for (const char c : name) out += c == '_' ? std::string("_<wbr>") : escape_html({&c, 1});
-  return out;
+
+/// A column's name as people read it: "pixel change" for "pixel_change". Names of configurations stay.
+static std::string heading_of(std::string name) {
+  if (name.find('=') == std::string::npos) std::replace(name.begin(), name.end(), '_', ' ');
+  return escape_html(name);
 }
 
 std::string escape_html(std::string_view text) {
@@ -110,8 +111,9 @@ std::string table_html(const Table& table) {
                                 table.header.size() > kDenseColumns ? " dense" : "", table.id);
   out += "<caption>" + escape_html(table.caption) + "</caption>\n<thead><tr>";
   for (size_t i = 0; i < table.header.size(); ++i)
-    out += fmt::format("<th scope=\"col\"{}>{}</th>", i < table.text_columns ? " class=\"text\"" : "",
-                       breakable(table.header[i]));
+    out += fmt::format("<th scope=\"col\"{} data-v=\"{}\">{}</th>",
+                       i < table.text_columns ? " class=\"text\"" : "", escape_html(table.header[i]),
+                       heading_of(table.header[i]));
   out += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
     out += "<tr>";
@@ -119,7 +121,7 @@ std::string table_html(const Table& table) {
       const char* tag = i == 0 ? "th" : "td";
       // Narrow screens do not show the header row: each cell names its column.
       out += fmt::format("<{}{}{} data-h=\"{}\" data-v=\"{}\">{}</{}>", tag, i == 0 ? " scope=\"row\"" : "",
-                         i < table.text_columns ? " class=\"text\"" : "", escape_html(table.header[i]),
+                         i < table.text_columns ? " class=\"text\"" : "", heading_of(table.header[i]),
                          escape_html(row[i].exact), row[i].html, tag);
     }
     out += "</tr>\n";

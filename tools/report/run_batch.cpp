@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "way_out.h"
 
@@ -30,7 +32,7 @@ void collect(const fs::path& path, std::vector<std::string>& out) {
 }
 
 /// The folder's name without the "-<pid>" that `run` puts behind a program's name.
-std::string plain_name(const std::string& folder) {
+std::string without_pid(const std::string& folder) {
   const size_t dash = folder.find_last_of('-');
   const bool process = dash != std::string::npos && dash > 0 && dash + 1 < folder.size() &&
                        folder.find_first_not_of("0123456789", dash + 1) == std::string::npos;
@@ -41,6 +43,15 @@ std::string folder_name(const std::string& path) {
   fs::path full = fs::absolute(path).lexically_normal();
   if (!full.has_filename()) full = full.parent_path();
   return full.filename().string();
+}
+
+/// The name that --name gave the run, or that of its folder.
+std::string plain_name(const std::string& path) {
+  std::ifstream file(path + "/run.json");
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  if (json.is_object() && json.contains("name") && json["name"].is_string() && json["name"] != "")
+    return json["name"].get<std::string>();
+  return without_pid(folder_name(path));
 }
 
 }  // namespace
@@ -57,20 +68,28 @@ Result<std::vector<BatchEntry>> find_runs(const std::vector<std::string>& paths)
     if (found.size() == before)
       return Error{ErrorKind::kFile, path + ": holds no run (no frames.csv in it or below)"};
   }
+  std::vector<std::string> plain;
+  for (const std::string& path : found) plain.push_back(plain_name(path));
   std::map<std::string, size_t> plain_count, folder_count;
-  for (const std::string& path : found) {
-    ++plain_count[plain_name(folder_name(path))];
-    ++folder_count[folder_name(path)];
+  for (size_t i = 0; i < found.size(); ++i) {
+    ++plain_count[plain[i]];
+    ++folder_count[folder_name(found[i])];
   }
   std::vector<BatchEntry> entries;
-  for (const std::string& path : found) {
-    const std::string folder = folder_name(path), plain = plain_name(folder);
-    if (plain_count[plain] == 1)
-      entries.push_back({path, plain});
+  for (size_t i = 0; i < found.size(); ++i) {
+    const std::string folder = folder_name(found[i]);
+    if (plain_count[plain[i]] == 1)
+      entries.push_back({found[i], plain[i]});
     else
-      entries.push_back({path, folder_count[folder] == 1 ? folder : path});
+      entries.push_back({found[i], folder_count[folder] == 1 ? folder : found[i]});
   }
   return entries;
+}
+
+std::vector<std::string> names_of(const std::vector<BatchEntry>& entries) {
+  std::vector<std::string> names;
+  for (const BatchEntry& entry : entries) names.push_back(entry.name);
+  return names;
 }
 
 std::string workload_category(const RunRecord& run) {

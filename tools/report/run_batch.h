@@ -15,9 +15,12 @@ struct BatchEntry {
   std::string name;
 };
 
-/// Returns the run directories at or below `paths`, in that order, the folders of one path sorted by name.
+/// Returns the run directories at or below `paths`, in that order, the folders of one path sorted by name. A
+/// workload has the name in its run.json, or else that of the folder without the number of the process.
 /// Fails if a path does not exist or holds no run.
 Result<std::vector<BatchEntry>> find_runs(const std::vector<std::string>& paths);
+
+std::vector<std::string> names_of(const std::vector<BatchEntry>& entries);
 
 /// The workload's category ("UI", "2D", "3D", …) in run.json; empty if there is none.
 std::string workload_category(const RunRecord& run);

@@ -1,7 +1,5 @@
 // tilepress compare: two runs or batches side by side, and an exit status for regressions.
-#include <fmt/format.h>
-
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -11,20 +9,28 @@
 #include "command_line.h"
 #include "common_options.h"
 #include "report/compare/comparison_text.h"
+#include "report/compare/option_differences.h"
+#include "report/compare/regressions.h"
 #include "report/run_batch.h"
+#include "streams/output_file.h"
 #include "verb.h"
 
 namespace tilepress {
 namespace {
 
-const std::map<std::string, ComparisonFormat> kFormats = {{"text", ComparisonFormat::kText},
-                                                          {"markdown", ComparisonFormat::kMarkdown},
-                                                          {"csv", ComparisonFormat::kCsv}};
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  tilepress compare before after\n"
+    "  tilepress compare out --map 'vdcp => vdcp:fvc=128'\n"
+    "  tilepress compare before after --threshold 1 --github --junit rates.xml\n"
+    "  tilepress compare before after --format markdown --frames 100-199\n";
 
 struct CompareOptions {
-  std::string a, b;
+  std::string a, b, junit;
+  std::vector<SchemePair> map;
+  bool github = false;
   std::optional<double> threshold_percent;
-  std::string format = "text";
+  ComparisonFormat format = ComparisonFormat::kText;
   bool per_frame = false;
   FrameSet frames;
 };
@@ -56,44 +62,119 @@ RunPairs pair_runs(const std::vector<BatchEntry>& a, const std::vector<BatchEntr
   return out;
 }
 
-/// Reports each rate that fell by more than the threshold. Returns the number of such rates.
-size_t report_regressions(const std::vector<RunComparison>& runs, double threshold_percent) {
-  size_t count = 0;
-  for (const RunComparison& run : runs)
-    for (const SchemeComparison& scheme : run.schemes) {
-      const double change = relative_change(scheme.a.rate(), scheme.b.rate());
-      if (std::isnan(change) || change * 100 >= -threshold_percent) continue;
-      ++count;
-      say(MessageLevel::kError,
-          fmt::format("{}: rate of {} fell by {:.3g} % ({:.6g} to {:.6g}), more than {:g} %", run.name,
-                      scheme.scheme, -change * 100, scheme.a.rate(), scheme.b.rate(), threshold_percent));
+std::string trimmed(const std::string& text) {
+  const size_t begin = text.find_first_not_of(' ');
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+}
+
+/// "vdcp => vdcp:fvc=128"
+SchemePair parse_map(const std::string& text) {
+  const size_t arrow = text.find("=>");
+  SchemePair pair;
+  if (arrow != std::string::npos) pair = {trimmed(text.substr(0, arrow)), trimmed(text.substr(arrow + 2))};
+  if (pair.a.empty() || pair.b.empty())
+    throw CLI::ValidationError("--map " + text + ": needs 'SCHEME OF A => SCHEME OF B'");
+  return pair;
+}
+
+/// Fails for a scheme of --map that a run lacks.
+Result<void> check_map(const std::vector<SchemePair>& map, const RunRecord& run,
+                       std::string SchemePair::*side) {
+  const std::vector<std::string>& names = run.scheme_names;
+  for (const SchemePair& pair : map)
+    if (std::find(names.begin(), names.end(), pair.*side) == names.end()) {
+      const std::vector<std::string_view> known(names.begin(), names.end());
+      return Error{ErrorKind::kBadValue,
+                   "--map " + pair.text() + ": " + run.path + " has no scheme '" + pair.*side + "'" +
+                       nearest_hint(pair.*side, known, "it has " + listed_words(known, ", "))};
     }
-  return count;
+  return {};
+}
+
+/// Adds the comparison of each pair to `runs`.
+Result<void> compare_pairs(const RunPairs& found, const CompareOptions& options,
+                           std::vector<RunComparison>& runs) {
+  for (const auto& [a, b] : found.pairs) {
+    const auto record_a = read_run(a.path), record_b = read_run(b.path);
+    if (!record_a || !record_b) return (record_a ? record_b : record_a).error();
+    if (const auto checked = check_map(options.map, *record_a, &SchemePair::a); !checked) return checked;
+    if (const auto checked = check_map(options.map, *record_b, &SchemePair::b); !checked) return checked;
+    RunComparison run = compare_runs(*record_a, *record_b, options.frames, options.map);
+    run.name = a.name;
+    run.options = option_differences(a.path, b.path);
+    runs.push_back(std::move(run));
+  }
+  return {};
+}
+
+/// What CI wants beside the table. Returns the exit status.
+int report_checks(const std::vector<RunComparison>& runs, const RunPairs& found,
+                  const CompareOptions& options) {
+  const auto checks = check_rates(runs, found.unpaired, *options.threshold_percent);
+  bool failed = false;
+  for (const RateCheck& check : checks) {
+    failed = failed || !check.fault.empty();
+    if (check.fault.starts_with("rate of ")) say(MessageLevel::kError, check.workload + ": " + check.fault);
+  }
+  if (options.github) {
+    std::vector<std::string> remarks;
+    for (const RunComparison& run : runs)
+      for (const std::string& remark : comparison_remarks(run)) remarks.push_back(run.name + ": " + remark);
+    std::fputs(github_annotations(checks, remarks).c_str(), stdout);
+  }
+  if (!options.junit.empty())
+    if (const auto written = write_whole_file(options.junit, junit_xml(checks), true); !written)
+      return fail(kExitFailed, written.error());
+  return failed ? kExitFailed : kExitDone;
+}
+
+std::optional<int> parse_options(int argc, char** argv, CompareOptions& options) {
+  CLI::App app{
+      "Compares the rates of two runs, or of two folders of runs, over the frames that both have. Change is "
+      "(B - A) / A."};
+  app.footer(kExamples);
+  app.add_option("A", options.a, "Run directory, or folder of runs: the reference")->required();
+  app.add_option("B", options.b,
+                 "Run directory, or folder of runs, to compare with A (with --map: default A)");
+  app.add_option_function<std::vector<std::string>>(
+         "--map",
+         [&options](const std::vector<std::string>& texts) {
+           for (const std::string& text : texts) options.map.push_back(parse_map(text));
+         },
+         "Compare a scheme of A with another scheme of B, as 'vdcp => vdcp:fvc=128'; repeatable")
+      ->type_name("'S => T'")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+  app.add_option("--threshold", options.threshold_percent,
+                 "Exit 1 if a scheme's rate falls by more than this many percent")
+      ->type_name("PCT")
+      ->check(CLI::NonNegativeNumber);
+  app.add_flag("--github", options.github,
+               "With --threshold: print errors and warnings as annotations of GitHub Actions")
+      ->needs("--threshold");
+  app.add_option("--junit", options.junit, "With --threshold: write the checks as a JUnit file")
+      ->type_name("FILE")
+      ->needs("--threshold");
+  add_choice_option<ComparisonFormat>(app, "--format", options.format,
+                                      {{"text", ComparisonFormat::kText},
+                                       {"markdown", ComparisonFormat::kMarkdown},
+                                       {"csv", ComparisonFormat::kCsv}},
+                                      "Format of the table (default: text)");
+  app.add_flag("--per-frame", options.per_frame, "Print a line for every frame and scheme");
+  add_frames_option(app, options.frames);
+  if (const auto stop = parse_command_line(app, argc, argv)) return *stop;
+  if (options.b.empty() && options.map.empty())
+    return fail(kExitUsage, "no B given (see tilepress compare --help)");
+  if (options.b.empty()) options.b = options.a;
+  return std::nullopt;
 }
 
 }  // namespace
 
 int verb_compare(int argc, char** argv) {
   CompareOptions options;
-  CLI::App app{
-      "Compares the rates of two runs, or of two folders of runs, over the frames that both have. Change is "
-      "(B - A) / A."};
-  app.add_option("A", options.a, "Run directory, or folder of runs: the reference")->required();
-  app.add_option("B", options.b, "Run directory, or folder of runs, to compare with A")->required();
-  app.add_option("--threshold", options.threshold_percent,
-                 "Exit 1 if a scheme's rate falls by more than this many percent")
-      ->type_name("PCT")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--format", options.format, "text, markdown or csv (default: text)")
-      ->type_name("FORMAT")
-      ->check([](const std::string& name) {
-        return kFormats.count(name) > 0 ? "" : "must be text, markdown or csv, not '" + name + "'";
-      });
-  app.add_flag("--per-frame", options.per_frame, "Print a line for every frame and scheme");
-  add_frames_option(app, options.frames);
-  if (const auto stop = parse_command_line(app, argc, argv)) return *stop;
-
-  const ComparisonFormat format = kFormats.at(options.format);
+  if (const auto stop = parse_options(argc, argv, options)) return *stop;
   const auto entries_a = find_runs({options.a});
   if (!entries_a) return fail(kExitFailed, entries_a.error());
   const auto entries_b = find_runs({options.b});
@@ -103,27 +184,19 @@ int verb_compare(int argc, char** argv) {
   if (found.pairs.empty()) return fail(kExitFailed, options.a + ": has no run in common with " + options.b);
 
   std::vector<RunComparison> runs;
+  if (const auto compared = compare_pairs(found, options, runs); !compared)
+    return fail(compared.error().kind == ErrorKind::kBadValue ? kExitUsage : kExitFailed, compared.error());
   bool compared_any = false;
-  for (const auto& [a, b] : found.pairs) {
-    const auto record_a = read_run(a.path), record_b = read_run(b.path);
-    if (!record_a || !record_b) return fail(kExitFailed, (record_a ? record_b : record_a).error());
-    RunComparison run = compare_runs(*record_a, *record_b, options.frames);
-    run.name = a.name;
+  for (const RunComparison& run : runs) {
+    compared_any = compared_any || (run.common > 0 && !run.schemes.empty());
     // Text and Markdown contain the remarks.
-    if (format == ComparisonFormat::kCsv)
+    if (options.format == ComparisonFormat::kCsv)
       for (const std::string& remark : comparison_remarks(run))
         say(MessageLevel::kError, run.name + ": " + remark);
-    if (run.common > 0 && !run.schemes.empty()) compared_any = true;
-    runs.push_back(std::move(run));
   }
-  std::fputs(comparison_text(runs, format, options.per_frame).c_str(), stdout);
+  std::fputs(comparison_text(runs, options.format, options.per_frame).c_str(), stdout);
   if (!compared_any) return fail(kExitFailed, "no frame and scheme in common");
-  if (!options.threshold_percent) return kExitDone;
-  const size_t regressions = report_regressions(runs, *options.threshold_percent);
-  // A run or scheme that B lacks may be worse.
-  bool gap = !found.unpaired.empty();
-  for (const RunComparison& run : runs) gap = gap || run.common == 0 || !run.schemes_only_a.empty();
-  return regressions > 0 || gap ? kExitFailed : kExitDone;
+  return options.threshold_percent ? report_checks(runs, found, options) : kExitDone;
 }
 
 }  // namespace tilepress

@@ -87,6 +87,12 @@ Result<void> write_row_lines(const std::string& path, const std::string& name, O
   return frames ? write_rows(path + "/schemes.csv", "{\"type\":\"scheme\"" + run, out) : frames;
 }
 
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  tilepress export --format gem5 out -o stats.txt\n"
+    "  tilepress export --format gem5 --per-frame out/glxgears-4711 -o stats.txt\n"
+    "  tilepress export --format jsonl out | grep vdcp\n";
+
 struct ExportOptions {
   std::vector<std::string> runs;
   std::string format, output = "-";
@@ -106,13 +112,12 @@ Result<void> export_run(const BatchEntry& entry, const ExportOptions& options, O
 int verb_export(int argc, char** argv) {
   ExportOptions options;
   CLI::App app{"Writes runs as gem5's stats.txt or as JSON lines."};
+  app.footer(kExamples);
   app.add_option("RUN", options.runs, "Run directories, or folders of run directories")->required();
   app.add_option("--format", options.format, "gem5 (name value # description) or jsonl (one object per row)")
       ->type_name("gem5|jsonl")
       ->required()
-      ->check([](const std::string& name) {
-        return name == "gem5" || name == "jsonl" ? "" : "must be gem5 or jsonl, not '" + name + "'";
-      });
+      ->check(CLI::IsMember({"gem5", "jsonl"}));
   app.add_option("-o,--output", options.output, "File to write; - for standard output (default: -)")
       ->type_name("FILE");
   app.add_flag("--per-frame", options.per_frame, "gem5: one dump per frame, not one per run");

@@ -10,14 +10,24 @@
 
 namespace tilepress {
 
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  tilepress summary out\n"
+    "  tilepress summary monday tuesday\n"
+    "  tilepress summary out --category 'glmark2*=3D' --category '*=UI'\n";
+
 int verb_summary(int argc, char** argv) {
-  std::vector<std::string> paths, categories;
+  std::vector<std::string> paths;
+  RunCategories categories;
   CLI::App app{"Prints the rates of finished runs, and their harmonic means by category."};
+  app.footer(kExamples);
   app.add_option("DIR", paths, "Run directories, or folders of run directories")->required();
-  add_category_option(app, categories);
+  add_run_category_options(app, categories);
   if (const auto stop = parse_command_line(app, argc, argv)) return *stop;
   const auto entries = find_runs(paths);
   if (!entries) return fail(kExitFailed, entries.error());
+  if (const auto checked = check_category_rules(categories.rules, names_of(*entries)); !checked)
+    return fail(kExitUsage, checked.error());
   std::vector<RateRow> rows;
   std::string notes;
   int status = kExitDone;
@@ -27,7 +37,7 @@ int verb_summary(int argc, char** argv) {
       status = fail(kExitFailed, run.error());
       continue;
     }
-    const auto own = rate_rows(*run, entry.name, category_by_rules(categories, entry.name, workload_category(*run)));
+    const auto own = rate_rows(*run, entry.name, categories.of(entry.name, workload_category(*run)));
     rows.insert(rows.end(), own.begin(), own.end());
     if (!own.front().is_whole())
       notes += "(!) " + printable(entry.name + ": " + run->state + (run->reason.empty() ? "" : ": " + run->reason)) + "\n";

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "counted.h"
 #include "scheme_names.h"
 #include "sections.h"
 
@@ -77,11 +78,11 @@ Section rates_section(const Batch& batch, const std::vector<std::string>& scheme
   }
   if (range.high > 0)
     out.chart =
-        chart_key(key) +
-        row_chart(rows, AxisScale::for_rates(range.low, range.high), RowShape::kDots,
-                  "rate (raw / moved bits)",
-                  fmt::format("{}: {} workloads, rates from {} to {}. The table has all figures.",
-                              out.heading, rows.size(), shown_number(range.low), shown_number(range.high)));
+        chart_key(key) + row_chart(rows, AxisScale::for_rates(range.low, range.high), RowShape::kDots,
+                                   "rate (raw / moved bits)",
+                                   fmt::format("{}: {}, rates from {} to {}. The table has all figures.",
+                                               out.heading, counted(rows.size(), "workload"),
+                                               shown_number(range.low), shown_number(range.high)));
   return out;
 }
 

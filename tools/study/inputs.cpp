@@ -11,11 +11,13 @@
 #include "capture/mesa_manifest.h"
 #include "capture/trace_manifest.h"
 #include "frames/cached_surface.h"
+#include "frames/image_folders.h"
 #include "images/image_kind.h"
 #include "report/category_rules.h"
 #include "report/run_batch.h"
 #include "tilepress/run_reader.h"
 #include "tilepress/trace_summary.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -52,7 +54,10 @@ class WorkloadFinder {
   void add_input(const std::string& input) {
     std::error_code code;
     if (fs::exists(input, code)) return add_path(input);
-    if (input.find_first_of("*?[") == std::string::npos) return fault(input, "No such file or directory");
+    if (input.find_first_of("*?[") == std::string::npos) {
+      found_.faults.push_back({ErrorKind::kFile, missing_text(input)});
+      return;
+    }
     glob_t matches{};
     if (glob(input.c_str(), 0, nullptr, &matches) != 0) fault(input, "matches no file");
     for (size_t i = 0; i < matches.gl_pathc; ++i) add_path(matches.gl_pathv[i]);
@@ -121,9 +126,7 @@ class WorkloadFinder {
   bool add_image(const fs::path& file) {
     const ImageReader reader = image_kind_of_file(file.c_str()).reader;
     if (reader == ImageReader::kRefused) return false;
-    // A movie has no signature that this table knows. Its reader refuses what is none.
-    static constexpr std::string_view kMovies[] = {".mp4", ".mkv", ".webm", ".avi", ".mpg", ".mov"};
-    const bool movie = std::ranges::find(kMovies, file.extension().string()) != std::end(kMovies);
+    const bool movie = has_movie_ending(file.string());
     if (reader == ImageReader::kMovie && !movie) return false;
     const bool alone = movie || reader == ImageReader::kGif || reader == ImageReader::kWebp;
     const fs::path folder = file.parent_path();

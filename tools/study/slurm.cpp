@@ -10,18 +10,12 @@
 #include "capture/child_process.h"
 #include "study/text_file.h"
 #include "tilepress/program_search.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// In single quotes, as a shell takes it.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? "'\\''" : std::string(1, c);
-  return out + "'";
-}
 
 /// Runs sbatch and returns the number of the job that it prints.
 Result<std::string> sbatch(const std::string& folder, const std::vector<std::string>& arguments) {
@@ -69,7 +63,7 @@ std::string job_script(const StudyPlan& plan, const StudyOptions& options, const
       "#SBATCH --job-name=tilepress-{}\n"
       "exec {} study retry {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" -j \"${{SLURM_CPUS_PER_TASK:-1}}\" \\\n"
       "  --progress never\n",
-      plan.study.name, quoted(command), quoted(options.folder), shard_count);
+      plan.study.name, shell_word(command), shell_word(options.folder), shard_count);
 }
 
 Result<std::string> submit_to_slurm(const StudyPlan& plan, const StudyOptions& options,
@@ -85,7 +79,7 @@ Result<std::string> submit_to_slurm(const StudyPlan& plan, const StudyOptions& o
   auto job = sbatch(folder, {"--array=" + array_text(shards_of(tasks, shard_count)),
                              "--output=" + folder + "/slurm/%A-%a.log", "--chdir=" + folder, script});
   if (!job) return job;
-  const std::string merge = quoted(command) + " study merge " + quoted(folder);
+  const std::string merge = shell_word(command) + " study merge " + shell_word(folder);
   const auto merging = sbatch(folder, {"--dependency=afterany:" + *job, "--job-name=tilepress-merge",
                                        "--output=" + folder + "/slurm/%j-merge.log", "--chdir=" + folder,
                                        "--wrap=" + merge});

@@ -8,9 +8,11 @@
 #include "study/configuration.h"
 #include "study/study_assets.h"
 #include "study/text_file.h"
+#include "tilepress/nearest_word.h"
 #include "tilepress/plugin_library.h"
 #include "tilepress/run_options.h"
 #include "toml_text.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -52,6 +54,13 @@ auto place_of(const Places& places, std::string_view key) {
   return std::ranges::find(places, key, [](const auto& place) { return place.first; });
 }
 
+std::vector<std::string_view> names_of(const TableKeys& keys) {
+  std::vector<std::string_view> names = keys.ignored;
+  for (const auto& [name, place] : keys.texts) names.push_back(name);
+  for (const auto& [name, place] : keys.lists) names.push_back(name);
+  return names;
+}
+
 Result<void> take_table(const toml::table& table, const TableKeys& keys) {
   for (const auto& [key_node, node] : table) {
     const std::string_view key = key_node.str();
@@ -64,7 +73,7 @@ Result<void> take_table(const toml::table& table, const TableKeys& keys) {
       if (!texts) return about(key, texts.error());
       *list->second = *texts;
     } else if (std::ranges::find(keys.ignored, key) == keys.ignored.end()) {
-      return at_line(node, "unknown key '" + std::string(key) + "'");
+      return at_line(node, "unknown key '" + std::string(key) + "'" + nearest_hint(key, names_of(keys)));
     }
   }
   return {};
@@ -254,7 +263,13 @@ std::string_view example_study() {
 Result<StudyFile> load_study(const std::string& name) {
   const std::string built_in = built_in_study(name);
   const auto text = built_in.empty() ? read_text_file(name) : Result<std::string>(built_in);
-  if (!text) return text.error();
+  if (!text) {
+    Error error = text.error();
+    constexpr std::string_view kWords[] = {"paper", "sensitivity", "status", "retry", "merge", "cache"};
+    const std::string near_word = nearest_hint(name, kWords);
+    if (!std::filesystem::exists(name)) error.text += near_word.empty() ? path_hint(name) : near_word;
+    return error;
+  }
   const auto folder = std::filesystem::path(name).parent_path();
   auto study = parse_study_in(folder, *text);
   if (!study) return about(name, study.error());

@@ -86,7 +86,7 @@ def main():
 
         for arguments, wanted, line in (
                 (("compare", a, folder / "none"), 1, "no such folder"), (("compare", a), 2, "B"),
-                (("compare", a, b, "--format", "xml"), 2, "must be text, markdown or csv, not 'xml'"),
+                (("compare", a, b, "--format", "xml"), 2, "--format xml: not one of text, markdown, csv"),
                 (("compare", a, b, "--frames", "9-3"), 2, "9-3"), (("report",), 2, "RUN"),
                 (("report", folder / "none"), 1, "no such folder"), (("report", a, "-o", folder / "no" / "x.html"), 1, "No such file"),
                 (("report", a, "--category", "UI"), 2, "needs PATTERN=NAME")):
@@ -97,7 +97,7 @@ def main():
         empty.mkdir()
         expect("holds no run" in tilepress("report", empty)[2], "an empty folder is named")
 
-        status, out, err = tilepress("report", a, "-o", "-", "--category", "*=2D", "--title", "My <run>")
+        status, out, err = tilepress("report", a, "-o", "-", "--category", "*=2D", "--recategorize", "--title", "My <run>")
         expect(status == 0 and out.startswith("<!doctype html>") and "<h1>My &lt;run&gt;</h1>" in out, "a page on standard output")
         expect('data-v="2D"' in out, "--category sets the category")
     for fault in faults:

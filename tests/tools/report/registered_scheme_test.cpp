@@ -67,8 +67,8 @@ TEST_F(RegisteredScheme, HasItsRatesAndColumnsOnThePage) {
   const std::string html = page();
   EXPECT_NE(html.find("<section id=\"toys\">\n<h2>Toy &lt;1&gt;: columns of its own</h2>"),
             std::string::npos);
-  EXPECT_NE(html.find("data-h=\"toy_hits\" data-v=\"7\""), std::string::npos);
-  EXPECT_NE(html.find("data-h=\"toy_misses\" data-v=\"5\""), std::string::npos);
+  EXPECT_NE(html.find("data-h=\"toy hits\" data-v=\"7\""), std::string::npos);
+  EXPECT_NE(html.find("data-h=\"toy misses\" data-v=\"5\""), std::string::npos);
   EXPECT_NE(html.find("data-h=\"rate toy\" data-v=\"2\""), std::string::npos);
 }
 

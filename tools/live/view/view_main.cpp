@@ -289,9 +289,11 @@ int view(int argc, char** argv) {
   glfwSetErrorCallback([](int, const char* text) { glfw_error = text; });
   if (glfwInit() != GLFW_TRUE) {
     const char* display = std::getenv("DISPLAY");
-    return fail_view(1, display == nullptr || *display == 0
-                            ? "no display: DISPLAY is not set"
-                            : std::string("no display: cannot open ") + display);
+    return fail_view(
+        1, display == nullptr || *display == 0
+               ? "no display: DISPLAY is not set (tilepress top needs none; xvfb-run -a gives one for "
+                 "--screenshot)"
+               : std::string("no display: cannot open ") + display);
   }
   int status = 0;
   {

@@ -147,22 +147,8 @@ std::string csv_text(const std::vector<RunComparison>& runs, bool per_frame) {
   return out;
 }
 
-}  // namespace
-
-std::string comparison_text(const std::vector<RunComparison>& runs, ComparisonFormat format, bool per_frame) {
-  if (format == ComparisonFormat::kCsv) return csv_text(runs, per_frame);
-  const bool markdown = format == ComparisonFormat::kMarkdown;
-  std::string out = grid_text(scheme_grid(runs), markdown);
-  const TextGrid frames = frame_grid(runs, per_frame);
-  if (!frames.rows.empty()) out += grid_text(frames, markdown);
-  std::string remarks;
-  for (const RunComparison& run : runs)
-    for (const std::string& remark : comparison_remarks(run))
-      remarks += fmt::format("{}{}: {}\n", markdown ? "- " : "", run.name, remark);
-  return remarks.empty() ? out : out + "\n" + remarks;
-}
-
-std::vector<std::string> comparison_remarks(const RunComparison& run) {
+/// One line for each difference of the frames and schemes.
+std::vector<std::string> picture_remarks(const RunComparison& run) {
   std::vector<std::string> out;
   if (run.only_a + run.only_b > 0)
     out.push_back(fmt::format("not the same frames: {} compared, {} only in A, {} only in B", run.common,
@@ -174,6 +160,33 @@ std::vector<std::string> comparison_remarks(const RunComparison& run) {
     out.push_back(fmt::format("schemes only in A: {}", fmt::join(run.schemes_only_a, " ")));
   if (!run.schemes_only_b.empty())
     out.push_back(fmt::format("schemes only in B: {}", fmt::join(run.schemes_only_b, " ")));
+  return out;
+}
+
+}  // namespace
+
+std::string comparison_text(const std::vector<RunComparison>& runs, ComparisonFormat format, bool per_frame) {
+  if (format == ComparisonFormat::kCsv) return csv_text(runs, per_frame);
+  const bool markdown = format == ComparisonFormat::kMarkdown;
+  std::string out;
+  for (const RunComparison& run : runs)
+    for (const std::string& difference : run.options)
+      out += fmt::format("{}{}: other options: {}\n", markdown ? "- " : "", run.name, difference);
+  if (!out.empty()) out += '\n';
+  out += grid_text(scheme_grid(runs), markdown);
+  const TextGrid frames = frame_grid(runs, per_frame);
+  if (!frames.rows.empty()) out += grid_text(frames, markdown);
+  std::string remarks;
+  for (const RunComparison& run : runs)
+    for (const std::string& remark : picture_remarks(run))
+      remarks += fmt::format("{}{}: {}\n", markdown ? "- " : "", run.name, remark);
+  return remarks.empty() ? out : out + "\n" + remarks;
+}
+
+std::vector<std::string> comparison_remarks(const RunComparison& run) {
+  std::vector<std::string> out;
+  for (const std::string& difference : run.options) out.push_back("other options: " + difference);
+  for (std::string& remark : picture_remarks(run)) out.push_back(std::move(remark));
   return out;
 }
 

@@ -35,10 +35,15 @@ std::vector<std::string> missing_from(const std::vector<std::string>& others,
 
 }  // namespace
 
-RunComparison compare_runs(const RunRecord& a, const RunRecord& b, const FrameSet& frames) {
+RunComparison compare_runs(const RunRecord& a, const RunRecord& b, const FrameSet& frames,
+                           const std::vector<SchemePair>& map) {
   RunComparison out;
-  out.schemes_only_a = missing_from(b.scheme_names, a.scheme_names);
-  out.schemes_only_b = missing_from(a.scheme_names, b.scheme_names);
+  std::vector<SchemePair> schemes = map;
+  if (map.empty()) {
+    out.schemes_only_a = missing_from(b.scheme_names, a.scheme_names);
+    out.schemes_only_b = missing_from(a.scheme_names, b.scheme_names);
+    for (const std::string& name : a.scheme_names) schemes.push_back({name, name});
+  }
 
   const auto frames_a = measured_frames(a, frames), frames_b = measured_frames(b, frames);
   std::vector<std::pair<const FrameStatistics*, const FrameStatistics*>> pairs;
@@ -54,23 +59,25 @@ RunComparison compare_runs(const RunRecord& a, const RunRecord& b, const FrameSe
   out.common = pairs.size();
   out.only_b = frames_b.size() - pairs.size();
 
-  for (size_t i = 0; i < a.scheme_names.size(); ++i) {
-    const auto found = std::find(b.scheme_names.begin(), b.scheme_names.end(), a.scheme_names[i]);
-    if (found == b.scheme_names.end()) continue;
-    const size_t j = static_cast<size_t>(found - b.scheme_names.begin());
+  for (const SchemePair& pair : schemes) {
+    const auto in_a = std::find(a.scheme_names.begin(), a.scheme_names.end(), pair.a);
+    const auto in_b = std::find(b.scheme_names.begin(), b.scheme_names.end(), pair.b);
+    if (in_a == a.scheme_names.end() || in_b == b.scheme_names.end()) continue;
+    const auto i = static_cast<size_t>(in_a - a.scheme_names.begin());
+    const auto j = static_cast<size_t>(in_b - b.scheme_names.begin());
     SchemeComparison scheme;
-    scheme.scheme = a.scheme_names[i];
+    scheme.scheme = pair.text();
     scheme.a.burst_bits = a.burst_bits;
     scheme.b.burst_bits = b.burst_bits;
-    for (const auto& [in_a, in_b] : pairs) {
-      const SchemeStatistics &of_a = in_a->schemes[i], &of_b = in_b->schemes[j];
+    for (const auto& [frame_a, frame_b] : pairs) {
+      const SchemeStatistics &of_a = frame_a->schemes[i], &of_b = frame_b->schemes[j];
       // A frame that was cut off when its program was killed has no sizes.
       if (of_a.raw_bits == 0 || of_b.raw_bits == 0) continue;
       scheme.a += of_a;
       scheme.b += of_b;
       scheme.better += of_b.rate() > of_a.rate();
       scheme.worse += of_b.rate() < of_a.rate();
-      scheme.frames.push_back({in_a->frame, in_a->surface, of_a, of_b});
+      scheme.frames.push_back({frame_a->frame, frame_a->surface, of_a, of_b});
     }
     out.schemes.push_back(std::move(scheme));
   }

@@ -27,6 +27,7 @@ struct SchemeComparison {
 
 struct RunComparison {
   std::string name;                 ///< workload
+  std::vector<std::string> options;  ///< options that change rows and differ, as option_differences() says
   uint64_t common = 0;              ///< measured frames compared
   uint64_t only_a = 0, only_b = 0;  ///< measured frames that the other run lacks
   /// Common frames whose size or content metrics (colours, entropy) differ: not the same pictures.
@@ -35,8 +36,18 @@ struct RunComparison {
   std::vector<SchemeComparison> schemes;
 };
 
-/// Compares the frames of `frames` (all if it is every frame).
-RunComparison compare_runs(const RunRecord& a, const RunRecord& b, const FrameSet& frames);
+/// A scheme of run A and the scheme of run B to compare with it.
+struct SchemePair {
+  std::string a, b;
+
+  /// "vdcp", or "vdcp => hdcp" for two schemes.
+  std::string text() const { return a == b ? a : a + " => " + b; }
+};
+
+/// Compares the frames of `frames` (all if it is every frame). Without `map` the schemes of equal names are
+/// compared, with it only its pairs.
+RunComparison compare_runs(const RunRecord& a, const RunRecord& b, const FrameSet& frames,
+                           const std::vector<SchemePair>& map = {});
 
 /// Change from a to b as a share of a: 0.1 = 10 % more. 0 if both are equal, NaN if a is 0.
 double relative_change(double a, double b);

@@ -81,14 +81,16 @@
     return `${plot.title}: ${rows.join(', ')}.`;
   }
 
+  const heading = name => name.includes('=') ? name : name.replaceAll('_', ' ');
+
   function fillTable(details, plot) {
     const limit = 2000, rows = plotRows(plot);
     const table = element('table', {class: 'figures'});
-    const head = element('tr', {}, ...rows[0].map(name => element('th', {scope: 'col'}, name)));
+    const head = element('tr', {}, ...rows[0].map(name => element('th', {scope: 'col'}, heading(name))));
     table.append(element('thead', {}, head));
     const body = element('tbody');
     for (const row of rows.slice(1, limit + 1))
-      body.append(element('tr', {}, ...row.map((value, i) => element('td', {'data-h': rows[0][i]}, value == null ? '' : String(value)))));
+      body.append(element('tr', {}, ...row.map((value, i) => element('td', {'data-h': heading(rows[0][i])}, value == null ? '' : String(value)))));
     table.append(body);
     if (rows.length - 1 > limit)
       details.append(element('p', {class: 'note'}, `The first ${limit} of ${rows.length - 1} rows; the CSV has all.`));

@@ -1,0 +1,20 @@
+// Ended runs: counted by their folders.
+#include "live/ended_runs.h"
+
+#include "counted.h"
+#include "live/running_captures.h"
+#include "report/run_batch.h"
+#include "way_out.h"
+
+namespace tilepress {
+
+std::string ended_runs_text(const std::string& folder) {
+  if (!find_running_captures({folder}).empty()) return {};
+  const auto runs = find_runs({folder});
+  if (!runs) return {};
+  const bool one = runs->size() == 1;
+  return counted(runs->size(), "ended run") + (one ? " is" : " are") + " there; `tilepress report " +
+         shell_word(folder) + " -o report.html` shows " + (one ? "it" : "them");
+}
+
+}  // namespace tilepress
