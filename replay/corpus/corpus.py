@@ -15,7 +15,7 @@ import corpus_messages
 import publish
 import recipe as recipes
 import workload
-from corpus_messages import Fault, complain, counted, say
+from corpus_messages import Fault, complain, counted, each_with_time_left, say
 
 
 def list_recipes(options, chosen):
@@ -51,6 +51,7 @@ def record_recipes(options, chosen):
     for one in chosen:
         if options.frames:
             one.frames = options.frames
+    for one in each_with_time_left(chosen, lambda recipe: recipe.frames):
         try:
             info = workload.record(one, options.output, options.keep)
         except (Fault, OSError, subprocess.SubprocessError) as fault:

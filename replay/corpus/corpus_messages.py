@@ -21,5 +21,17 @@ def complain(text):
     print(f"tilepress: {text}", file=sys.stderr, flush=True)
 
 
+def each_with_time_left(items, work_of):
+    """Yields `items`. Between two prints how many are done and the time that the others take, if it grows with their
+    `work_of(item)`."""
+    begin, total, done = time.monotonic(), sum(map(work_of, items)), 0
+    for number, item in enumerate(items):
+        if number > 0:
+            left = (time.monotonic() - begin) * (total - done) / max(done, 1)
+            say(f"{number} of {len(items)} done, about {max(left / 60, 1):.0f} min left")
+        yield item
+        done += work_of(item)
+
+
 def counted(number, noun):
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

@@ -6,7 +6,7 @@ import tarfile
 import tempfile
 from pathlib import Path
 
-from corpus_messages import Fault, complain, counted, say
+from corpus_messages import Fault, complain, counted, each_with_time_left, say
 from frame_digests import SCHEMES, rates_of, render
 
 README = """# A corpus of OpenGL workloads
@@ -35,6 +35,10 @@ def _sha256(path):
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
+def _size_of(path):
+    return path.stat().st_size if path.exists() else 0
+
+
 def replay_differences(folder):
     """Replays a workload. Returns how many frames differ, of how many, and the renderer of the recording. Raises Fault, also
     if equal frames have other rates."""
@@ -61,7 +65,7 @@ def verify(folders):
     """Replays each workload and compares the digests of its frames, and the rates if all frames are equal. Returns
     whether all workloads are equal."""
     good = 0
-    for folder in folders:
+    for folder in each_with_time_left(folders, lambda folder: _size_of(folder / f"{folder.name}.trace")):
         try:
             differ, count, renderer = replay_differences(folder)
         except (Fault, OSError, KeyError, ValueError) as fault:
