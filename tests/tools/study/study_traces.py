@@ -21,6 +21,7 @@ key = "period"
 values = [1, 2]
 """
 SCHEMES = ["vdcp", "hdcp", "vdcp:period=2"]
+FRAMES = ["--frames", "0-9"]
 SUMMED = ["blocks", "raw_bits", "payload_bits", "bursts", "csb_bits", "palette_bits"]
 
 
@@ -31,7 +32,7 @@ class Traces(CliCase):
         self.traces = [os.path.join(TRACES, name + ".trace") for name in NAMES]
 
     def study(self, *words, status=0):
-        done = self.run_command("study", "s.toml", "-v", "--cache", "cache", "-o", "out", *words)
+        done = self.run_command("study", "s.toml", "-v", "--cache", "cache", "-o", "out", *FRAMES, *words)
         self.assertEqual(done.returncode, status, done.stderr)
         self.stderr = done.stderr.decode()
         return tuple(int(number) for number in re.search(
@@ -40,7 +41,7 @@ class Traces(CliCase):
     def test_are_rendered_once_and_equal_a_replay(self):
         self.assertEqual(self.study(*self.traces), (2, 0, 6, 0))
         replay = [word for scheme in SCHEMES for word in ("-s", scheme)]
-        self.assertEqual(self.run_command("replay", "-q", *replay, "-o", "replayed", *self.traces).returncode, 0)
+        self.assertEqual(self.run_command("replay", "-q", *FRAMES, *replay, "-o", "replayed", *self.traces).returncode, 0)
         for row in read_rows(self.path("out/results.csv")):
             frames = [frame for frame in read_rows(self.path(f"replayed/{row['workload']}/schemes.csv"))
                       if frame["scheme"] == row["configuration"] and frame["warmup"] == "0"]
