@@ -276,6 +276,7 @@ class Failures(ReplayCase):
         text = self.replay("-q", "-s", "red", "cut.trace", "damaged.trace", "empty.trace", "text.trace", "new.trace",
                            "silent.trace", "folder.trace", "none.trace", GLX, status=FAILED)
         self.assertEqual(text.splitlines(), [
+            "tilepress: none.trace: No such file or directory (did you mean 'new.trace'?)",
             "tilepress: cut.trace: truncated after 14 frames: the last chunk is cut off; the frames before were captured",
             "tilepress: damaged.trace: corrupt at byte 1048576 of the stream, after 0 frames: a chunk is damaged; "
             "not replayed",
@@ -283,8 +284,7 @@ class Failures(ReplayCase):
             "tilepress: text.trace: is not an apitrace trace",
             "tilepress: new.trace: has trace format version 9; versions up to 6 can be read",
             "tilepress: silent.trace: presents no frame (1 call, API EGL)",
-            "tilepress: folder.trace: is a directory, not a trace",
-            "tilepress: none.trace: No such file or directory"])
+            "tilepress: folder.trace: is a directory, not a trace"])
         self.assertEqual(len(read_rows(self.path("out/cut/frames.csv"))), 14)
         self.assertEqual(len(read_rows(self.run_of(GLX) + "/frames.csv")), FRAMES[GLX])
 

@@ -18,7 +18,7 @@ class PassesThrough(CliCase):
     """Programs without GL: nothing captured, all else as if tilepress were not there."""
 
     def test_input_output_and_error(self):
-        done = self.run_command("run", "--", "sh", "-c", "cat; echo err >&2; exit 4", stdin=b"in")
+        done = self.run_command("run", "-q", "--", "sh", "-c", "cat; echo err >&2; exit 4", stdin=b"in")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (4, b"in", b"err\n"))
 
     def test_arguments_after_the_dashes_as_they_are(self):

@@ -164,7 +164,8 @@ def killed_window_changes_nothing(display, folder):
 
 def fails_in_one_line(folder):
     without = {name: value for name, value in QUIET.items() if name != "DISPLAY"}
-    for environment, line in ((without, "tilepress: view: no display: DISPLAY is not set\n"),
+    for environment, line in ((without, "tilepress: view: no display: DISPLAY is not set "
+                                        "(tilepress top needs none; xvfb-run -a gives one for --screenshot)\n"),
                               (dict(QUIET, DISPLAY=":987654"), "tilepress: view: no display: cannot open :987654\n")):
         done = subprocess.run([TILEPRESS, "view", folder], env=environment, capture_output=True, text=True, timeout=60)
         expect((done.returncode, done.stdout, done.stderr) == (1, "", line), f"without a display: {done}")
