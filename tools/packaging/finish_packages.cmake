@@ -18,7 +18,7 @@ set(day "${output}")
 
 # Debian packages whose code or font the binaries of a component contain. Their licences go along.
 set(contained_command fonts-dejavu-core libcli11-dev libfmt-dev libhwy-dev libspdlog-dev libstb-dev
-    libtomlplusplus-dev nlohmann-json3-dev)
+    libtomlplusplus-dev libxxhash-dev nlohmann-json3-dev)
 set(contained_codec libhwy-dev)
 set(contained_python libhwy-dev pybind11-dev)
 
