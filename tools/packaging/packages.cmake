@@ -35,10 +35,10 @@ images and movies. It computes for each frame how well lossless framebuffer
 compression works on it: seven schemes of dynamic color palettes, those of
 the literature and of shipping GPUs.")
 # The corpus and the figures of studies are Python programs. The command itself needs what it links; `tilepress doctor`
-# names the rest.
+# names the rest. eglretrace loads libEGL.so and libGLESv2.so, names that only the -dev packages have.
 set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS python3)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS
-    "apitrace, apitrace-tracers, libegl1, libgl1, libgl1-mesa-dri, libgles2, python3-matplotlib, xauth, xvfb")
+    "apitrace, apitrace-tracers, libegl-dev, libgl1-mesa-dri, libgles-dev, python3-matplotlib, xauth, xvfb")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS
     "dbus, faketime, glmark2-es2-x11, libtilepress-dev, matchbox-window-manager, python3-tilepress, xdotool")
 
