@@ -171,7 +171,7 @@ int verb_replay(int argc, char** argv) {
   if (!std::filesystem::exists(output, code)) return status;
   if (const auto written = write_replay_csv(output, rate_rows(batch.replays())); !written)
     return fail(kExitFailed, written.error());
-  if (!options.quiet && interruption.empty()) show(next_command(given_output));
+  if (!options.quiet && interruption.empty() && !captured_runs(batch).empty()) show(next_command(given_output));
   return status;
 }
 
