@@ -80,4 +80,11 @@ std::string missing_text(const std::string& path) {
   return path + ": No such file or directory" + path_hint(path);
 }
 
+Result<void> check_folder_of(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  std::error_code code;
+  if (folder.empty() || fs::is_directory(folder, code)) return {};
+  return Error{ErrorKind::kFile, path + ": there is no folder " + folder.string()};
+}
+
 }  // namespace tilepress

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tilepress/result.h"
+
 namespace tilepress {
 
 /// Returns " (did you mean 'shots/1.png'?)" if a file or folder of a similar name is where `path` says there is
@@ -27,5 +29,8 @@ std::vector<std::string> missing_paths(const std::vector<std::string>& paths);
 
 /// "PATH: No such file or directory", with the path's hint.
 std::string missing_text(const std::string& path);
+
+/// Fails with kFile, "PATH: there is no folder FOLDER", if the folder of a file to be made is missing.
+Result<void> check_folder_of(const std::string& path);
 
 }  // namespace tilepress

@@ -1,6 +1,7 @@
 // Replay verdict: compares the frames captured with the frames of the trace.
 #include "replay_verdict.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace tilepress {
@@ -39,6 +40,13 @@ std::string missing_text(const ReplayEvidence& evidence, const RunCounts& counts
          (evidence.outcome.seen.empty() ? " asked for no presenting function" : " presented nothing");
 }
 
+/// Debian's eglretrace says this where it finds no library under the names that only the -dev packages have.
+bool lacks_gl_libraries(const AttemptOutcome& outcome) {
+  return std::any_of(outcome.last_lines.begin(), outcome.last_lines.end(), [](const std::string& line) {
+    return line.find("unavailable function eglGetProcAddress") != std::string::npos;
+  });
+}
+
 }  // namespace
 
 std::string end_text(const ReplayEvidence& evidence) {
@@ -52,7 +60,10 @@ std::string end_text(const ReplayEvidence& evidence) {
     return evidence.retracer + " was ended by signal " + std::to_string(*outcome.signal) + " (" +
            strsignal(*outcome.signal) + ")";
   if (outcome.exit_status.value_or(0) != 0)
-    return evidence.retracer + " ended with status " + std::to_string(*outcome.exit_status);
+    return evidence.retracer + " ended with status " + std::to_string(*outcome.exit_status) +
+           (lacks_gl_libraries(outcome)
+                ? " (it loads libEGL.so and libGLESv2.so: Debian packages libegl-dev and libgles-dev)"
+                : "");
   return "";
 }
 

@@ -77,6 +77,15 @@ TEST_F(ReplayVerdict, AfterASignalIsInterruptedUnlessEveryFrameWasCaptured) {
   EXPECT_EQ(judged().status, ReplayStatus::kInterrupted);
 }
 
+TEST_F(ReplayVerdict, OfARetracerWithoutGlLibrariesNamesTheirPackages) {
+  outcome_.exit_status = 1;
+  outcome_.last_lines = {"error: unavailable function eglGetProcAddress"};
+  EXPECT_EQ(
+      judged(10, false).reason,
+      "no frame captured of 10 frames: eglretrace ended with status 1 (it loads libEGL.so and libGLESv2.so: "
+      "Debian packages libegl-dev and libgles-dev)");
+}
+
 TEST_F(ReplayVerdict, OfACutTraceOrAWrongDecodingIsAFailureThoughEveryFrameIsThere) {
   capture(10);
   trace_.state = TraceState::kTruncated;

@@ -1,4 +1,5 @@
 // tilepress doctor: checks this machine and names the Debian packages it lacks.
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -120,6 +121,14 @@ Finding find_retracer() {
           "apitrace"};
 }
 
+/// eglretrace loads these names, which only the -dev packages have.
+Finding find_unversioned_library(const std::string& name, const std::string& package) {
+  void* library = dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  const bool found = library != nullptr;
+  if (found) dlclose(library);
+  return {name, found, false, "eglretrace loads it", package};
+}
+
 /// Tests whether the shim gets into a program and captures it.
 Finding test_road(const std::string& shim, ShimRoad road, bool essential, const char* how) {
   const auto passed = test_shim(shim, road);
@@ -137,6 +146,8 @@ std::vector<Finding> examine() {
   }
   add_displays(findings);
   findings.push_back(find_retracer());
+  findings.push_back(find_unversioned_library("libEGL.so", "libegl-dev"));
+  findings.push_back(find_unversioned_library("libGLESv2.so", "libgles-dev"));
   for (const auto& [name, purpose, package] : kTools) {
     const auto path = find_program(name);
     findings.push_back({name, path.has_value(), false, path ? *path + ", " + purpose : purpose, package});

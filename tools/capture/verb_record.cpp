@@ -112,6 +112,8 @@ int verb_record(int argc, char** argv) {
   if (auto status = parse_options(argc, argv, options)) return *status;
   std::error_code code;
   if (fs::exists(options.output, code)) return fail(kExitFailed, options.output + ": exists already");
+  if (const auto checked = check_folder_of(options.output); !checked)
+    return fail(kExitFailed, checked.error());
   if (const auto apitrace = find_program("apitrace"); !apitrace)
     return fail(kExitFailed, apitrace.error().text + " (Debian packages apitrace and apitrace-tracers)");
   const auto program = find_program(options.program.front());

@@ -13,6 +13,7 @@
 #include "frames/frame_size.h"
 #include "streams/messages.h"
 #include "tilepress/scheme.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -43,9 +44,7 @@ Result<void> check_path(const MemoryTraceOptions& options) {
   const std::filesystem::path path(options.path);
   if (std::filesystem::is_regular_file(path, code) && !options.force)
     return Error{ErrorKind::kExists, options.path + ": exists; choose another name or remove it"};
-  if (path.has_parent_path() && !std::filesystem::is_directory(path.parent_path(), code))
-    return Error{ErrorKind::kFile, options.path + ": there is no folder " + path.parent_path().string()};
-  return {};
+  return check_folder_of(options.path);
 }
 
 /// The format that the name of a file tells: t.csv, t.gem5.gz.
