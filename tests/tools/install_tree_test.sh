@@ -13,7 +13,7 @@ tilepress="$work/a place/moved/bin/tilepress"
 "$tilepress" --version
 # The window is found where the tree lies now, and says what is missing itself.
 told=$(env -u DISPLAY "$tilepress" view "$work" 2>&1) && exit 1
-[ "$told" = "tilepress: view: no display: DISPLAY is not set" ] || { echo "view says: $told"; exit 1; }
+case $told in "tilepress: view: no display: DISPLAY is not set"*) ;; *) echo "view says: $told"; exit 1 ;; esac
 
 start_x() {
   Xvfb -displayfd 7 -screen 0 640x480x24 -nolisten tcp -noreset 7>"$work/display" >/dev/null 2>&1 &
