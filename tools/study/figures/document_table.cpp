@@ -85,15 +85,15 @@ bool DocumentTable::wraps(size_t column) const {
 
 std::string DocumentTable::markdown() const {
   std::string out = "**" + escape_markdown(caption) + "**\n\n|";
-  for (const std::string& column : header) out += " " + escape_markdown(column) + " |";
+  for (const std::string& column : header) out.append(" ").append(escape_markdown(column)).append(" |");
   out += "\n|";
   for (size_t i = 0; i < header.size(); ++i) out += i < text_columns || wraps(i) ? " --- |" : " ---: |";
   for (const auto& row : rows) {
     out += "\n|";
-    for (const DocumentCell& cell : row) out += " " + escape_markdown(cell.shown) + " |";
+    for (const DocumentCell& cell : row) out.append(" ").append(escape_markdown(cell.shown)).append(" |");
   }
   out += "\n";
-  if (!note.empty()) out += "\n" + escape_markdown(note) + "\n";
+  if (!note.empty()) out.append("\n").append(escape_markdown(note)).append("\n");
   return out;
 }
 
