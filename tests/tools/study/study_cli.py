@@ -39,8 +39,16 @@ def content(path):
 
 
 class StudyCase(CliCase):
+    draws = False  # Drawing takes most of the time of a small study.
+
     def setUp(self):
         super().setUp()
+        self.environment = {}
+        if not self.draws:
+            os.mkdir(self.path("programs"))
+            self.write("programs/python3", b"#!/bin/sh\nexit 0\n")
+            os.chmod(self.path("programs/python3"), 0o755)
+            self.environment["PATH"] = self.path("programs") + ":" + os.environ["PATH"]
         self.write("small.toml", STUDY.format(values="16, 64").encode())
         for name in ("desktop", "map"):
             os.mkdir(self.path(name))
@@ -57,6 +65,9 @@ class StudyCase(CliCase):
         os.mkdir(self.path("long"))
         for number in range(300):
             os.symlink(golden("odd", number % 5), self.path(f"long/{number:03}.png"))
+
+    def run_command(self, *words, env=None, **further):
+        return super().run_command(*words, env={**self.environment, **(env or {})}, **further)
 
     def study(self, *words, status=0, **further):
         """Returns (computed, kept) as the summary says."""
@@ -173,6 +184,8 @@ class Bounds(StudyCase):
 
 
 class Bursts(StudyCase):
+    draws = True
+
     def test_of_a_study_are_modelled_beside_that_of_the_call(self):
         self.write("small.toml", STUDY.format(values="16").replace("[[category]]", "bursts = [128, 256]\n[[category]]").encode())
         self.assertEqual(self.study("-o", "out", "desktop", "map"), (16, 0))
