@@ -143,7 +143,7 @@ bool TraceReplay::check_folder() {
   std::error_code code;
   if (fs::exists(folder_->partial_path(), code)) {
     if (!options_.resume)
-      return fail(folder_->partial_path() + " is left of an interrupted replay (--resume replaces it)");
+      return fail(folder_->partial_path() + " is left of an interrupted replay (--resume or --force replaces it)");
     fs::remove_all(folder_->partial_path(), code);
   }
   if (!fs::exists(folder_->run_path(), code)) return true;

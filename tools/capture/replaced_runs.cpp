@@ -23,6 +23,8 @@ ReplacedRuns::~ReplacedRuns() {
 Result<void> ReplacedRuns::set_aside(const std::string& path) {
   std::error_code code;
   fs::remove_all(path + ".partial", code);
+  // What a killed `replay --force` left.
+  if (!fs::exists(path, code) && fs::exists(path + kAside, code)) fs::rename(path + kAside, path, code);
   if (!fs::exists(path, code)) return {};
   if (!holds_run(path)) return Error{ErrorKind::kFile, path + ": holds no run; --force replaces only runs"};
   fs::remove_all(path + kAside, code);
