@@ -88,8 +88,9 @@ Result<SchemeValue> parse_value(const SchemeKey& key, const std::string& text, S
   if (key.kind == KeyKind::kChoice) {
     const auto choices = choices_of(key);
     const auto at = std::find(choices.begin(), choices.end(), text);
-    if (at != choices.end()) return SchemeValue(static_cast<uint32_t>(at - choices.begin()));
-    return Error{fault.kind, fault.text + nearest_hint(text, choices)};
+    if (at == choices.end()) return Error{fault.kind, fault.text + nearest_hint(text, choices)};
+    const SchemeValue value = static_cast<uint32_t>(at - choices.begin());
+    return value;
   }
   if (key.kind == KeyKind::kFile) {
     if (files == SchemeFiles::kLeave)
