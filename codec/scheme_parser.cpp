@@ -123,6 +123,8 @@ std::string keys_text(const SchemeInfo& info) {
 Error unknown_scheme(const std::string& name) {
   std::vector<std::string_view> known;
   for (const SchemeInfo& scheme : scheme_registry()) known.emplace_back(scheme.name);
+  if (name.find(',') != std::string::npos)
+    return {ErrorKind::kBadValue, "unknown scheme '" + name + "' (give each scheme an option of its own)"};
   const std::string list =
       nearest_word(name, known).empty() ? "there are " + listed_words(known, " and ") : std::string();
   return {ErrorKind::kBadValue, "unknown scheme '" + name + "'" + nearest_hint(name, known, list)};

@@ -54,7 +54,7 @@ constexpr const char* kTailText =
     "  help         show this, or with a verb: the verb's options\n"
     "\n"
     "Examples:\n"
-    "  tilepress run -o out -- glmark2-es2 -b desktop        capture a program, all schemes\n"
+    "  tilepress run -o out -- glmark2-es2 -b desktop        capture a program, the paper's schemes\n"
     "  tilepress run -s vdcp -s vdcp:fvc=128 -- glxgears     two configurations side by side\n"
     "  tilepress run --frames 100-199 --verify -- ./game     some frames, proven lossless\n"
     "  tilepress frames -o out shots/*.png                   a sequence of images\n"

@@ -52,6 +52,29 @@ const char* meaning_of(SchemeGroup group) {
   return kMeanings[static_cast<size_t>(group)];
 }
 
+void print_keys(const SchemeInfo& scheme, std::set<std::string_view>& printed) {
+  for (const SchemeKey& key : scheme.keys)
+    if (printed.insert(key.name).second)
+      std::printf("  %-9s %-23s %-8s %s\n", key.name, key.values().c_str(), key.default_value().c_str(),
+                  key.summary);
+}
+
+void print_keys_heading() {
+  std::printf("\nKeys:\n  %-9s %-23s %-8s %s\n", "key", "values", "default", "");
+}
+
+/// One scheme with its keys. Error: no scheme has this name.
+Result<void> print_one(const std::string& name) {
+  const auto spec = parse_scheme(name);
+  if (!spec) return spec.error();
+  const SchemeInfo& scheme = *find_scheme(spec->name);
+  print_scheme(scheme);
+  if (!scheme.keys.empty()) print_keys_heading();
+  std::set<std::string_view> printed;
+  print_keys(scheme, printed);
+  return {};
+}
+
 void print_groups() {
   for (size_t i = 0; i < kSchemeGroups; ++i) {
     const auto group = static_cast<SchemeGroup>(i);
@@ -67,13 +90,9 @@ void print_groups() {
 
 void print_text() {
   print_groups();
-  std::printf("\nKeys:\n  %-9s %-23s %-8s %s\n", "key", "values", "default", "");
+  print_keys_heading();
   std::set<std::string_view> printed;  // schemes of a family share keys
-  for (const SchemeInfo& scheme : scheme_registry())
-    for (const SchemeKey& key : scheme.keys)
-      if (printed.insert(key.name).second)
-        std::printf("  %-9s %-23s %-8s %s\n", key.name, key.values().c_str(), key.default_value().c_str(),
-                    key.summary);
+  for (const SchemeInfo& scheme : scheme_registry()) print_keys(scheme, printed);
   std::printf(
       "\nWrite a scheme as name:key=value,key=value, for example -s vdcp:fvc=128,policy=2lfc.\n"
       "A value may be a list {a,b}. A range {A..B} doubles for fvc, ways and entries, and counts by one for\n"
@@ -104,6 +123,7 @@ void print_presets_json() {
 constexpr const char* kExamples =
     "Examples:\n"
     "  tilepress schemes\n"
+    "  tilepress schemes vdcp\n"
     "  tilepress schemes --json\n"
     "  tilepress schemes --dram\n";
 
@@ -113,11 +133,17 @@ int verb_schemes(int argc, char** argv) {
   CLI::App app("Lists the schemes, their sources and their keys.");
   app.footer(kExamples);
   bool json = false, dram = false;
+  std::string name;
   RunOptions run;
+  app.add_option("SCHEME", name, "Print this scheme and its keys alone");
   add_run_option(app, run, "plugin", "Also list the schemes of this shared library; repeat for more");
   app.add_flag("--json", json, "Print JSON");
   app.add_flag("--dram", dram, "Print the DRAM presets instead: burst, width, data rate and source");
   if (auto status = parse_command_line(app, argc, argv)) return *status;
+  if (!name.empty()) {
+    if (const auto printed = print_one(name); !printed) return fail(kExitUsage, printed.error());
+    return kExitDone;
+  }
   if (json) {
     dram ? print_presets_json() : print_json();
     return kExitDone;

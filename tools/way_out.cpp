@@ -1,11 +1,18 @@
 // Way out: looks for similar names one folder at a time.
 #include "way_out.h"
 
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include "tilepress/nearest_word.h"
+#include "tilepress/scheme.h"
 
 namespace tilepress {
 
@@ -22,6 +29,9 @@ static std::vector<std::string> names_in(const fs::path& folder) {
 }
 
 std::string path_hint(const std::string& path) {
+  // A shell replaced the braces of a list of schemes.
+  if (path.find('=') != std::string::npos && find_scheme(path.substr(0, path.find(':'))) != nullptr)
+    return " (a scheme? Put it in quotes: -s '" + path.substr(0, path.find('=')) + "={...}')";
   std::error_code code;
   fs::path known;
   const fs::path whole(path);
@@ -41,16 +51,37 @@ std::string path_hint(const std::string& path) {
   return {};
 }
 
-bool lacks_display() {
-  const auto named = [](const char* variable) {
-    const char* value = std::getenv(variable);
-    return value != nullptr && *value != '\0';
-  };
-  return !named("DISPLAY") && !named("WAYLAND_DISPLAY");
+bool x_server_answers(const std::string& display) {
+  const size_t colon = display.rfind(':');
+  if (colon == std::string::npos) return false;
+  const std::string host = display.substr(0, colon);
+  if (!host.empty() && host != "unix") return true;
+  const std::string path = "/tmp/.X11-unix/X" + std::to_string(std::atoi(display.c_str() + colon + 1));
+  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  // Linux servers also listen under the same name in the abstract namespace, some only there.
+  bool answers = connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  if (!answers) {
+    std::memset(address.sun_path, 0, sizeof address.sun_path);
+    path.copy(address.sun_path + 1, sizeof address.sun_path - 2);
+    const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + path.size());
+    answers = connect(fd, reinterpret_cast<const sockaddr*>(&address), size) == 0;
+  }
+  close(fd);
+  return answers;
 }
 
 std::string display_hint(const std::string& verb) {
-  return "  there is no DISPLAY: `xvfb-run -a tilepress " + verb +
+  const auto value_of = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return std::string(value != nullptr ? value : "");
+  };
+  const std::string display = value_of("DISPLAY");
+  if (!value_of("WAYLAND_DISPLAY").empty() || (!display.empty() && x_server_answers(display))) return {};
+  return (display.empty() ? "  there is no DISPLAY" : "  no X server answers at DISPLAY=" + display) +
+         ": `xvfb-run -a tilepress " + verb +
          " ...` gives the program a private one,\n"
          "  and `tilepress replay` needs none for a recorded trace\n";
 }
@@ -84,7 +115,8 @@ Result<void> check_folder_of(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
   std::error_code code;
   if (folder.empty() || fs::is_directory(folder, code)) return {};
-  return Error{ErrorKind::kFile, path + ": there is no folder " + folder.string()};
+  return Error{ErrorKind::kFile, path + ": there is no folder " + folder.string() + " (mkdir -p " +
+                                     shell_word(folder.string()) + ")"};
 }
 
 }  // namespace tilepress

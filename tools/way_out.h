@@ -12,10 +12,11 @@ namespace tilepress {
 /// one; else an empty text. Patterns that no shell has replaced count as names.
 std::string path_hint(const std::string& path);
 
-/// Whether neither an X server nor a Wayland compositor is named in the environment.
-bool lacks_display();
+/// Whether an X server answers at a local display (":1", ":1.0", "unix:1"). Returns true for a remote one.
+bool x_server_answers(const std::string& display);
 
-/// Two indented lines on how to run `verb` without a display.
+/// Two indented lines on how to run `verb` without a display. Empty if the environment names an X server that
+/// answers, or a Wayland compositor.
 std::string display_hint(const std::string& verb);
 
 /// Returns `text` as one word of a shell's command line, in single quotes where it needs them.

@@ -253,7 +253,7 @@ constexpr RunOption kOptions[] = {
      .text = {set_schemes, print_schemes},
      .json = {JsonForm::kList, "schemes"}, .rows = RowsEffect::kValue,
      .flags = "-s,--scheme", .metavar = "SPEC", .joint = ' ',
-     .help = "Scheme as name:key=value,key={a,b},... ; repeat for more (default: all seven; see tilepress schemes)"},
+     .help = "Scheme as name:key=value,key={a,b},... ; repeat for more (default: the paper's seven; see tilepress schemes)"},
     {.name = "tile", .variable = "TILEPRESS_TILE", .range = "a multiple of 8 in 8..4096",
      .text = kCount<TP_MEMBER(model.tile_side), 8, 4096, whole_blocks>,
      .json = {JsonForm::kNumber, "tile"}, .rows = RowsEffect::kAssigned,

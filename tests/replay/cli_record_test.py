@@ -57,8 +57,8 @@ class Records(CliCase):
 
     def test_not_over_a_file_that_exists(self):
         self.write("x.trace", b"mine")
-        self.expect(1, "x.trace: exists already", "record", "-o", "x.trace", "--", "true")
-        self.expect(1, "none/x.trace: there is no folder none", "record", "-o", "none/x.trace", "--", "true")
+        self.expect(1, "x.trace: exists already (remove it, or give another name)", "record", "-o", "x.trace", "--", "true")
+        self.expect(1, "none/x.trace: there is no folder none (mkdir -p none)", "record", "-o", "none/x.trace", "--", "true")
 
 
 if __name__ == "__main__":

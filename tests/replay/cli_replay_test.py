@@ -262,6 +262,21 @@ traces:
             self.expect(USAGE, "bad.yml: " + reason, "replay", "--manifest", "bad.yml")
 
 
+class Folders(ReplayCase):
+    def test_stand_for_the_traces_in_them_and_refused_replays_leave_the_rows(self):
+        os.mkdir(self.path("traces"))
+        os.symlink(EGL, self.path("traces/b.trace"))
+        os.symlink(GLX, self.path("traces/a.trace"))
+        self.write("traces/notes.txt", b"no trace")
+        self.replay("-q", "-s", "red", "--frames", "0-1", "traces")
+        with open(self.path("out/replay.csv"), encoding="utf-8") as file:
+            rows = file.read()
+        self.assertEqual([row["trace"] for row in read_rows(self.path("out/replay.csv"))], ["a", "b"])
+        self.replay("-q", "-s", "red", "--frames", "0-1", "traces", status=FAILED)
+        with open(self.path("out/replay.csv"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), rows)
+
+
 class Failures(ReplayCase):
     def test_are_told_in_a_line_each_and_do_not_stop_the_others(self):
         with open(EGL, "rb") as file:

@@ -80,6 +80,11 @@ SLIPS = [
     ("frames shost/0.png", FAILED, "shost/0.png: No such file or directory (did you mean 'shots/0.png'?)"),
     ("frames shots/*.jpg", FAILED, "shots/*.jpg: No such file or directory"),
     ("report rnu", FAILED, "rnu: no such folder (did you mean 'run'?)"),
+    ("frames -s vdcp,ras IMAGE", USAGE, "unknown scheme 'vdcp,ras' (give each scheme an option of its own)"),
+    ("frames -s vdcp:fvc=16 vdcp:fvc=32", FAILED, "(a scheme? Put it in quotes: -s 'vdcp:fvc={...}')"),
+    ("schemes vdpc", USAGE, "did you mean 'vdcp'?"),
+    ("study shots", FAILED, "is a folder; name a study before it, as in tilepress study paper shots"),
+    ("record -o none/x.trace -- true", FAILED, "there is no folder none (mkdir -p none)"),
     ("replay gmae.trace", FAILED, "gmae.trace: No such file or directory (did you mean 'game.trace'?)"),
     ("unpack --csv shosts.tpk", FAILED, "did you mean 'shots.tpk'?"),
     ("frames empty", FAILED, "empty: is a folder without images"),
@@ -143,6 +148,8 @@ class Guidance(CliCase):
             self.assertEqual(said.returncode, status)
             self.assertIn(b"xvfb-run -a tilepress run", said.stderr)
             self.assertIn(b"tilepress replay", said.stderr)
+        said = self.run_command("run", "-o", "out", "--", "false", env={"DISPLAY": ":987654", "WAYLAND_DISPLAY": ""})
+        self.assertIn(b"no X server answers at DISPLAY=:987654: `xvfb-run -a tilepress run", said.stderr)
         quiet = self.run_command("run", "-q", "-o", "out", "--", "false", env={"DISPLAY": "", "WAYLAND_DISPLAY": ""})
         self.assertEqual((quiet.returncode, quiet.stderr), (1, b""))
 

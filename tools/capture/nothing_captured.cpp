@@ -48,7 +48,7 @@ int report_nothing_captured(const LaunchOptions& options, const SessionFolder& s
       "  linked, by dlsym, or by eglGetProcAddress and glXGetProcAddress\n";
   if (options.run.triggers == 0)
     text += "  if the program draws and presents nothing, try --trigger finish,flush,readpixels\n";
-  if (lacks_display()) text += display_hint("run");
+  text += display_hint("run");
   const std::vector<std::string> seen = session.seen(), unreached = session.seen_from_afar();
   for (const auto* entries : {&seen, &unreached})
     for (const std::string& entry : *entries) text += "  seen: " + entry + "\n";

@@ -11,13 +11,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* kAside = ".replaced";
 
-ReplacedRuns::~ReplacedRuns() {
+void ReplacedRuns::end() {
   std::error_code code;
   for (const std::string& path : paths_)
     if (fs::exists(path, code))
       fs::remove_all(path + kAside, code);
     else
       fs::rename(path + kAside, path, code);
+  paths_.clear();
 }
 
 Result<void> ReplacedRuns::set_aside(const std::string& path) {

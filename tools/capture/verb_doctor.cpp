@@ -1,9 +1,6 @@
 // tilepress doctor: checks this machine and names the Debian packages it lacks.
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -20,6 +17,7 @@
 #include "dram_text.h"
 #include "tilepress/program_search.h"
 #include "verb.h"
+#include "way_out.h"
 
 namespace tilepress {
 namespace {
@@ -47,29 +45,6 @@ bool file_contains(const std::string& path, const char* word) {
   std::ifstream file(path, std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   return content.find(word) != std::string::npos;
-}
-
-/// Whether an X server answers at a local DISPLAY (":1", ":1.0", "unix:1"). Returns true for a remote one.
-bool display_answers(const std::string& display) {
-  const size_t colon = display.rfind(':');
-  if (colon == std::string::npos) return false;
-  const std::string host = display.substr(0, colon);
-  if (!host.empty() && host != "unix") return true;
-  const std::string path = "/tmp/.X11-unix/X" + std::to_string(std::atoi(display.c_str() + colon + 1));
-  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  path.copy(address.sun_path, sizeof address.sun_path - 1);
-  // Linux servers also listen under the same name in the abstract namespace, some only there.
-  bool answers = connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-  if (!answers) {
-    std::memset(address.sun_path, 0, sizeof address.sun_path);
-    path.copy(address.sun_path + 1, sizeof address.sun_path - 2);
-    const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + path.size());
-    answers = connect(fd, reinterpret_cast<const sockaddr*>(&address), size) == 0;
-  }
-  close(fd);
-  return answers;
 }
 
 void add_gl(std::vector<Finding>& findings) {
@@ -100,7 +75,7 @@ void add_gl(std::vector<Finding>& findings) {
 void add_displays(std::vector<Finding>& findings) {
   const char* display = std::getenv("DISPLAY");
   const bool named = display != nullptr && *display != '\0';
-  const bool answers = named && display_answers(display);
+  const bool answers = named && x_server_answers(display);
   findings.push_back({"X display", answers, false,
                       !named    ? "DISPLAY is not set; xvfb-run -a gives a private one"
                       : answers ? display

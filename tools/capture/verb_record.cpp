@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExamples =
     "Examples:\n"
-    "  tilepress record -o desktop.trace -- glmark2-es2 -b desktop:duration=3 --run-forever\n"
+    "  xvfb-run -a tilepress record -o desktop.trace -- glmark2-es2 -b desktop:duration=3\n"
     "  tilepress record --api glx -o gears.trace -- glxgears\n"
     "  xvfb-run -a tilepress record -o game.trace -- ./game --level 3\n"
     "\n"
@@ -111,7 +111,8 @@ int verb_record(int argc, char** argv) {
   RecordOptions options;
   if (auto status = parse_options(argc, argv, options)) return *status;
   std::error_code code;
-  if (fs::exists(options.output, code)) return fail(kExitFailed, options.output + ": exists already");
+  if (fs::exists(options.output, code))
+    return fail(kExitFailed, options.output + ": exists already (remove it, or give another name)");
   if (const auto checked = check_folder_of(options.output); !checked)
     return fail(kExitFailed, checked.error());
   if (const auto apitrace = find_program("apitrace"); !apitrace)
@@ -137,7 +138,7 @@ int verb_record(int argc, char** argv) {
     if (recording.program_status != 0)
       reason += fmt::format(" (it ended with status {})", recording.program_status);
     const int status = fail(kExitNothingCaptured, name + ": no frame recorded: " + reason);
-    if (lacks_display()) show(display_hint("record"));
+    show(display_hint("record"));
     return status;
   }
 }

@@ -12,9 +12,11 @@
 #include "capture/trace_manifest.h"
 #include "command_line.h"
 #include "common_options.h"
+#include "frames/image_folders.h"
 #include "progress_line.h"
 #include "report/category_rules.h"
 #include "streams/ending_signals.h"
+#include "tilepress/run_reader.h"
 #include "verb.h"
 #include "way_out.h"
 
@@ -83,10 +85,26 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
   return std::nullopt;
 }
 
+/// Replaces each folder by the *.trace files in it. A folder without one stays, and is refused as a trace.
+std::vector<std::string> expand_trace_folders(const std::vector<std::string>& paths) {
+  std::vector<std::string> out;
+  for (const std::string& path : paths) {
+    std::error_code code;
+    std::vector<std::string> traces;
+    if (std::filesystem::is_directory(path, code))
+      if (const auto found =
+              files_in_order(path, [](const std::string& file) { return file.ends_with(".trace"); }))
+        traces = *found;
+    if (traces.empty()) traces = {path};
+    out.insert(out.end(), traces.begin(), traces.end());
+  }
+  return out;
+}
+
 /// Adds the traces of the manifest to those of the command line. Each needs a folder of its own.
 Result<std::vector<ReplayInput>> gather_inputs(const VerbOptions& options) {
   std::vector<ReplayInput> inputs;
-  for (const std::string& path : options.traces)
+  for (const std::string& path : expand_trace_folders(options.traces))
     inputs.push_back({path, replay_name(path), "", "", std::nullopt});
   if (!options.manifest.empty()) {
     const auto listed = read_manifest(options.manifest, options.trace_folder);
@@ -115,6 +133,15 @@ std::vector<LoggedRun> captured_runs(const ReplayBatch& batch) {
     if (const std::string& path = replay->result().run.path; !path.empty())
       runs.push_back({replay->input().name, path});
   return runs;
+}
+
+/// Without the rows of refused replays: the finished run in their place has its own already.
+std::vector<RateRow> rows_to_write(const ReplayBatch& batch, const std::string& output) {
+  std::vector<RateRow> rows = rate_rows(batch.replays());
+  std::erase_if(rows, [&](const RateRow& row) {
+    return row.frames_captured == 0 && holds_run(output + "/" + row.trace);
+  });
+  return rows;
 }
 
 std::vector<std::string> missing_traces(const std::vector<ReplayInput>& inputs) {
@@ -167,9 +194,10 @@ int verb_replay(int argc, char** argv) {
     if (!write_run_traces(captured_runs(batch), options.trace, false, options.quiet) && status == kExitDone)
       status = kExitFailed;
   }
+  replaced.end();
   std::error_code code;
   if (!std::filesystem::exists(output, code)) return status;
-  if (const auto written = write_replay_csv(output, rate_rows(batch.replays())); !written)
+  if (const auto written = write_replay_csv(output, rows_to_write(batch, output)); !written)
     return fail(kExitFailed, written.error());
   if (!options.quiet && interruption.empty() && !captured_runs(batch).empty()) show(next_command(given_output));
   return status;

@@ -108,7 +108,7 @@ int verb_run(int argc, char** argv) {
   const bool traced = write_run_traces(captured_runs(done->processes), options.trace, true, launch.quiet);
   if (!launch.quiet && found.captured > 0) show(next_command(given_output));
   if (const int status = done->child.own_status(); status != 0) {
-    if (!launch.quiet && found.captured == 0 && !done->child.signal && lacks_display())
+    if (!launch.quiet && found.captured == 0 && !done->child.signal)
       show(fmt::format("tilepress: {}: ended with status {}, no frame captured\n", launch.program.front(),
                        status) +
            display_hint("run"));

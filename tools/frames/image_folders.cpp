@@ -50,6 +50,22 @@ static bool is_image_or_movie(const std::string& path) {
   return reader == ImageReader::kMovie ? has_movie_ending(path) : reader != ImageReader::kRefused;
 }
 
+Result<std::vector<std::string>> files_in_order(const std::string& folder,
+                                                const std::function<bool(const std::string&)>& wanted) {
+  std::vector<std::string> files;
+  std::error_code code;
+  for (auto entry = fs::directory_iterator(folder, code); !code && entry != fs::directory_iterator();
+       entry.increment(code)) {
+    const std::string file = entry->path().string();
+    std::error_code kind;
+    if (!entry->is_regular_file(kind) || entry->path().filename().string().starts_with(".")) continue;
+    if (wanted(file)) files.push_back(file);
+  }
+  if (code) return Error{ErrorKind::kFile, folder + ": " + code.message()};
+  std::sort(files.begin(), files.end(), comes_before);
+  return files;
+}
+
 Result<std::vector<std::string>> expand_image_folders(const std::vector<std::string>& paths,
                                                       const std::function<bool(const std::string&)>& is_raw) {
   std::vector<std::string> out;
@@ -59,19 +75,12 @@ Result<std::vector<std::string>> expand_image_folders(const std::vector<std::str
       out.push_back(path);
       continue;
     }
-    std::vector<std::string> files;
-    for (auto entry = fs::directory_iterator(path, code); !code && entry != fs::directory_iterator();
-         entry.increment(code)) {
-      const std::string file = entry->path().string();
-      std::error_code kind;
-      if (!entry->is_regular_file(kind) || entry->path().filename().string().starts_with(".")) continue;
-      if (is_raw(file) || is_image_or_movie(file)) files.push_back(file);
-    }
-    if (code) return Error{ErrorKind::kFile, path + ": " + code.message()};
-    if (files.empty())
+    const auto files = files_in_order(
+        path, [&](const std::string& file) { return is_raw(file) || is_image_or_movie(file); });
+    if (!files) return files.error();
+    if (files->empty())
       return Error{ErrorKind::kFile, path + ": is a folder without images (raw .rgba files need --size WxH)"};
-    std::sort(files.begin(), files.end(), comes_before);
-    out.insert(out.end(), files.begin(), files.end());
+    out.insert(out.end(), files->begin(), files->end());
   }
   return out;
 }

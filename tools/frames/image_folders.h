@@ -15,6 +15,11 @@ namespace tilepress {
 Result<std::vector<std::string>> expand_image_folders(const std::vector<std::string>& paths,
                                                       const std::function<bool(const std::string&)>& is_raw);
 
+/// The regular files of a folder that `wanted` accepts, without hidden ones, in the order above. Error:
+/// kFile.
+Result<std::vector<std::string>> files_in_order(const std::string& folder,
+                                                const std::function<bool(const std::string&)>& wanted);
+
 /// Movies have no signature: in a folder their names decide.
 bool has_movie_ending(const std::string& path);
 

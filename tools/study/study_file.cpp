@@ -267,6 +267,9 @@ Result<StudyFile> load_study(const std::string& name) {
     Error error = text.error();
     constexpr std::string_view kWords[] = {"paper", "sensitivity", "status", "retry", "merge", "cache"};
     const std::string near_word = nearest_hint(name, kWords);
+    if (std::filesystem::is_directory(name))
+      error.text =
+          name + ": is a folder; name a study before it, as in tilepress study paper " + shell_word(name);
     if (!std::filesystem::exists(name)) error.text += near_word.empty() ? path_hint(name) : near_word;
     return error;
   }

@@ -189,7 +189,7 @@ class Frames(MemoryTraceCase):
         self.expect(1, "empty: holds no blocks.log; capture it with --memory-trace FILE", "memory-trace", "empty", "-o", "t.csv")
         self.good("frames", "-q", "-s", "vdcp", "-o", "o", "--memory-trace", "t.csv", golden("odd", 1))
         self.expect(1, "t.csv: exists; choose another name or remove it", "memory-trace", "o", "-o", "t.csv")
-        self.expect(1, "none/t.csv: there is no folder none", "memory-trace", "o", "-o", "none/t.csv")
+        self.expect(1, "none/t.csv: there is no folder none (mkdir -p none)", "memory-trace", "o", "-o", "none/t.csv")
         self.good("memory-trace", "-q", "o", "--force", "-o", "t.csv")
 
 
