@@ -59,7 +59,7 @@ class Command(CliCase):
         self.expect(USAGE, "unknown verb 'frob' (see tilepress help)", "frob")
         self.expect(USAGE, "unknown option '--frob' (see tilepress help)", "--frob")
         self.expect(USAGE, "unknown option '--frob' (see tilepress schemes --help)", "schemes", "--frob")
-        self.expect(USAGE, "unexpected argument 'frob' (see tilepress schemes --help)", "schemes", "frob")
+        self.expect(USAGE, "unexpected argument 'frob' (see tilepress doctor --help)", "doctor", "frob")
 
     def test_schemes_lists_the_seven_of_the_paper(self):
         listed = json.loads(self.run_command("schemes", "--json").stdout)
