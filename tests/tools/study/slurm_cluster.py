@@ -38,10 +38,19 @@ def free_ports(count):
     return ports
 
 
+def host_name_resolves():
+    try:
+        return bool(socket.getaddrinfo(socket.gethostname(), None))
+    except OSError:
+        return False
+
+
 def is_possible():
-    """Slurm's daemons are there, and this process may run them."""
-    return os.geteuid() == 0 and all(shutil.which(name, path=os.environ["PATH"] + ":/usr/sbin:/sbin")
-                                     for name in ("slurmctld", "slurmd", "sbatch"))
+    """Slurm's daemons are there, this process may run them, and the system has what they insist on. A bare chroot may
+    have neither an address for the host's name nor control groups."""
+    path = os.environ["PATH"] + ":/usr/sbin:/sbin"
+    return (os.geteuid() == 0 and host_name_resolves() and os.path.ismount("/sys/fs/cgroup") and
+            all(shutil.which(name, path=path) for name in ("slurmctld", "slurmd", "sbatch")))
 
 
 class SlurmCluster:

@@ -381,7 +381,7 @@ class Disks(StudyCase):
         self.assertEqual(glob.glob(disk + "/**/*.part", recursive=True), [])
 
 
-@unittest.skipUnless(slurm_cluster.is_possible(), "needs root and Slurm's daemons")
+@unittest.skipUnless(slurm_cluster.is_possible(), "needs root, Slurm's daemons, a host name that resolves, and control groups")
 class Slurm(StudyCase):
     def test_runs_an_array_job_and_retries_a_killed_task(self):
         self.make_long_workload()
