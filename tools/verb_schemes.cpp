@@ -14,9 +14,11 @@
 namespace tilepress {
 namespace {
 
-void print_json() {
+/// `only`: the scheme to print, or null for all.
+void print_json(const SchemeInfo* only) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const SchemeInfo& scheme : scheme_registry()) {
+    if (only != nullptr && only != &scheme) continue;
     nlohmann::ordered_json keys = nlohmann::ordered_json::array();
     for (const SchemeKey& key : scheme.keys)
       keys.push_back({{"name", key.name},
@@ -63,16 +65,12 @@ void print_keys_heading() {
   std::printf("\nKeys:\n  %-9s %-23s %-8s %s\n", "key", "values", "default", "");
 }
 
-/// One scheme with its keys. Error: no scheme has this name.
-Result<void> print_one(const std::string& name) {
-  const auto spec = parse_scheme(name);
-  if (!spec) return spec.error();
-  const SchemeInfo& scheme = *find_scheme(spec->name);
+/// One scheme with its keys.
+void print_one(const SchemeInfo& scheme) {
   print_scheme(scheme);
   if (!scheme.keys.empty()) print_keys_heading();
   std::set<std::string_view> printed;
   print_keys(scheme, printed);
-  return {};
 }
 
 void print_groups() {
@@ -141,11 +139,14 @@ int verb_schemes(int argc, char** argv) {
   app.add_flag("--dram", dram, "Print the DRAM presets instead: burst, width, data rate and source");
   if (auto status = parse_command_line(app, argc, argv)) return *status;
   if (!name.empty()) {
-    if (const auto printed = print_one(name); !printed) return fail(kExitUsage, printed.error());
+    const auto spec = parse_scheme(name);
+    if (!spec) return fail(kExitUsage, spec.error());
+    const SchemeInfo& scheme = *find_scheme(spec->name);
+    json ? print_json(&scheme) : print_one(scheme);
     return kExitDone;
   }
   if (json) {
-    dram ? print_presets_json() : print_json();
+    dram ? print_presets_json() : print_json(nullptr);
     return kExitDone;
   }
   if (!dram) {
