@@ -45,6 +45,11 @@ def read_cache(path):
     return frames, json.loads(data[origin:origin + origin_bytes])
 
 
+def sha256_of(path):
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
 def read_rows(path):
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))

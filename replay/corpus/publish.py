@@ -1,13 +1,11 @@
 """Publishing: verifies recorded workloads, and packs them into an archive that others can use."""
-import hashlib
 import json
-import shutil
 import tarfile
 import tempfile
 from pathlib import Path
 
 from corpus_messages import Fault, complain, counted, each_with_time_left, say
-from frame_digests import SCHEMES, rates_of, render
+from frame_digests import SCHEMES, rates_of, render, sha256_of
 
 README = """# A corpus of OpenGL workloads
 
@@ -30,27 +28,15 @@ Use the corpus with
 """
 
 
-def _sha256(path):
-    with open(path, "rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def _size_of(path):
-    return path.stat().st_size if path.exists() else 0
-
-
 def replay_differences(folder):
     """Replays a workload. Returns how many frames differ, of how many, and the renderer of the recording. Raises Fault, also
     if equal frames have other rates."""
     info = json.loads((folder / "info.json").read_text(encoding="utf-8"))
     trace = folder / f"{folder.name}.trace"
-    if _sha256(trace) != info["trace_sha256"]:
+    if sha256_of(trace) != info["trace_sha256"]:
         raise Fault("the trace differs from the recorded one (SHA-256)")
-    work = Path(tempfile.mkdtemp(prefix="tilepress-corpus-"))
-    try:
-        rendering = render(trace, work, SCHEMES)
-    finally:
-        shutil.rmtree(work, ignore_errors=True)
+    with tempfile.TemporaryDirectory(prefix="tilepress-corpus-") as work:
+        rendering = render(trace, Path(work), SCHEMES)
     digests, recorded = rendering.digests(), info["frame_digests"]
     if len(digests) != len(recorded):
         raise Fault(f"{counted(len(digests), 'frame')} replayed, {len(recorded)} recorded")
@@ -64,8 +50,12 @@ def replay_differences(folder):
 def verify(folders):
     """Replays each workload and compares the digests of its frames, and the rates if all frames are equal. Returns
     whether all workloads are equal."""
+    def bytes_of(folder):
+        trace = folder / f"{folder.name}.trace"
+        return trace.stat().st_size if trace.exists() else 0
+
     good = 0
-    for folder in each_with_time_left(folders, lambda folder: _size_of(folder / f"{folder.name}.trace")):
+    for folder in each_with_time_left(folders, bytes_of):
         try:
             differ, count, renderer = replay_differences(folder)
         except (Fault, OSError, KeyError, ValueError) as fault:
@@ -102,13 +92,13 @@ def export(folders, archive):
     """Writes a tar file with the workloads, a manifest, a README and checksums. The same workloads give the same bytes."""
     infos = [json.loads((folder / "info.json").read_text(encoding="utf-8")) for folder in folders]
     root = archive.name.removesuffix(".tar")
-    work = Path(tempfile.mkdtemp(prefix="tilepress-corpus-"))
-    try:
+    with tempfile.TemporaryDirectory(prefix="tilepress-corpus-") as place:
+        work = Path(place)
         (work / "manifest.toml").write_text(manifest_of(infos), encoding="utf-8")
         (work / "README.md").write_text(README + _table(infos), encoding="utf-8")
         files = [(path, f"{folder.name}/{path.name}") for folder in folders for path in sorted(folder.iterdir())]
         files += [(work / name, name) for name in ("README.md", "manifest.toml")]
-        (work / "SHA256SUMS").write_text("".join(f"{_sha256(path)}  {name}\n" for path, name in files), encoding="utf-8")
+        (work / "SHA256SUMS").write_text("".join(f"{sha256_of(path)}  {name}\n" for path, name in files), encoding="utf-8")
         files.append((work / "SHA256SUMS", "SHA256SUMS"))
         partial = archive.with_name(archive.name + ".part")
         try:
@@ -121,6 +111,4 @@ def export(folders, archive):
             partial.rename(archive)
         finally:
             partial.unlink(missing_ok=True)
-    finally:
-        shutil.rmtree(work, ignore_errors=True)
     say(f"{archive}: {counted(len(folders), 'workload')}, {archive.stat().st_size} bytes")

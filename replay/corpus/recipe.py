@@ -2,22 +2,13 @@
 import difflib
 import re
 import tomllib
-from dataclasses import dataclass, field
+from dataclasses import MISSING, dataclass, field, fields
 from pathlib import Path
 
 import input_events
 from corpus_messages import Fault
 
 CATEGORIES = ("UI", "2D", "3D")
-# Key: type, required.
-FIELDS = {
-    "name": (str, True), "category": (str, True), "stands_for": (str, True), "licence": (str, True),
-    "packages": (dict, True), "npm": (dict, False), "command": (list, False), "page": (str, False), "flags": (list, False),
-    "api": (str, True),
-    "environment": (dict, False), "window": (dict, False), "data": (list, False), "files": (dict, False), "clock": (str, False),
-    "input": (list, False), "begins": (float, True), "frames": (int, True), "checks": (dict, True),
-    "remark": (str, False),
-}
 WINDOW_FIELDS = {"size": str, "manager": str}
 CHECK_FIELDS = {"distinct": int, "change": float, "rate_tolerance": float}
 INPUT_FIELDS = {"at": float, "every": float, "times": int, "do": list}
@@ -39,12 +30,12 @@ class Recipe:
     stands_for: str
     licence: str
     packages: dict
-    api: str
     begins: float
     frames: int
     checks: dict
     command: list = field(default_factory=list)
     page: str = ""
+    api: str = ""
     flags: list = field(default_factory=list)
     npm: dict = field(default_factory=dict)
     environment: dict = field(default_factory=dict)
@@ -71,6 +62,12 @@ class Recipe:
     def events(self):
         """All timed events, sorted: pairs of seconds after the first frame and an event."""
         return input_events.expand(self.input)
+
+    def __post_init__(self):
+        self.api = self.api or ("egl" if self.page else "glx")
+
+
+FIELDS = {one.name: one for one in fields(Recipe) if one.name != "path"}
 
 
 def _fits(value, kind):
@@ -108,7 +105,7 @@ def _value_faults(table):
         faults.append("name has other characters than a-z, 0-9 and -")
     if table["category"] not in CATEGORIES:
         faults.append(f"category '{table['category']}' is not UI, 2D or 3D")
-    if table["api"] not in ("egl", "glx"):
+    if table.get("api", "glx") not in ("egl", "glx"):
         faults.append(f"api '{table['api']}' is not egl or glx")
     if not 2 <= table["frames"] <= 2000:
         faults.append("frames is not in 2..2000")
@@ -156,8 +153,9 @@ def _table_faults(table):
 
 def faults_of(table, stem):
     """Everything that is wrong with a recipe, a line each."""
-    faults = _field_faults(table, {key: kind for key, (kind, _) in FIELDS.items()}, "")
-    faults += [f"{key} is missing" for key, (_, required) in FIELDS.items() if required and key not in table]
+    faults = _field_faults(table, {key: one.type for key, one in FIELDS.items()}, "")
+    faults += [f"{key} is missing" for key, one in FIELDS.items()
+               if one.default is MISSING and one.default_factory is MISSING and key not in table]
     if faults:
         return faults
     faults = _value_faults(table) + _table_faults(table)
@@ -170,7 +168,7 @@ def read_recipe(path):
     """Raises Fault with a line per error."""
     try:
         text = path.read_text(encoding="utf-8")
-        table = tomllib.loads(text)
+        table = {"name": path.stem, **tomllib.loads(text)}
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error).splitlines()[0]
         raise Fault(f"{path}: {reason}") from error

@@ -105,14 +105,8 @@ class Values:
         return share(self.paper.mean(category, configuration, "fvc_relative_coverage_mean"))
 
     def value_ours(self, claim):
-        return self._claim(claim, "ours")
-
-    def value_published(self, claim):
-        return self._claim(claim, "published")
-
-    def _claim(self, claim, column):
         row = self.claims[claim]
-        return share(float(row[column])) if row["unit"] == "share" else f"{float(row[column]):.2f}"
+        return share(float(row["ours"])) if row["unit"] == "share" else f"{float(row['ours']):.2f}"
 
     def value_workloads(self, category):
         return str(len(self.paper.members(category)))

@@ -1,5 +1,4 @@
 """Workloads: a recording becomes a folder with trace, info, thumbnail, licence and checksums."""
-import hashlib
 import json
 import shutil
 import subprocess
@@ -9,15 +8,10 @@ from pathlib import Path
 
 import trimming
 from corpus_messages import Fault, counted, say
-from frame_digests import SCHEMES, TILEPRESS, rates_of, render
+from frame_digests import SCHEMES, TILEPRESS, rates_of, render, sha256_of
 from recording import colors_of, record_program, size_of
 
 THUMBNAIL_WIDTH = 240
-
-
-def sha256_of(path):
-    with open(path, "rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def trim(name, trace, presents, begins, count, work, log):
@@ -160,17 +154,16 @@ def store(recipe, work, output, trimmed, log):
 
 def record(recipe, output, keep=None):
     """Records one workload. Returns its info. Raises Fault. `keep`: a folder that keeps the intermediate files."""
-    work = Path(tempfile.mkdtemp(prefix="tilepress-corpus-"))
-    try:
-        with open(work / "log.txt", "w", encoding="utf-8") as log:
-            say(f"{recipe.name}: recording {counted(recipe.frames, 'frame')}")
-            trace, presents = record_program(recipe, work)
-            log.write(f"{len(presents)} frames were presented in {presents[-1].seconds if presents else 0:.1f} s\n")
-            trimmed = trim(recipe.name, trace, presents, recipe.begins, recipe.frames, work, log)
-            return store(recipe, work, output, trimmed, log)
-    except Fault:
-        if keep:
-            shutil.copytree(work, keep / recipe.name, dirs_exist_ok=True, ignore=shutil.ignore_patterns("home", "runtime"))
-        raise
-    finally:
-        shutil.rmtree(work, ignore_errors=True)
+    with tempfile.TemporaryDirectory(prefix="tilepress-corpus-", ignore_cleanup_errors=True) as place:
+        work = Path(place)
+        try:
+            with open(work / "log.txt", "w", encoding="utf-8") as log:
+                say(f"{recipe.name}: recording {counted(recipe.frames, 'frame')}")
+                trace, presents = record_program(recipe, work)
+                log.write(f"{len(presents)} frames were presented in {presents[-1].seconds if presents else 0:.1f} s\n")
+                trimmed = trim(recipe.name, trace, presents, recipe.begins, recipe.frames, work, log)
+                return store(recipe, work, output, trimmed, log)
+        except Fault:
+            if keep:
+                shutil.copytree(work, keep / recipe.name, dirs_exist_ok=True, ignore=shutil.ignore_patterns("home", "runtime"))
+            raise
