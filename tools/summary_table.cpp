@@ -7,7 +7,7 @@
 #include <set>
 
 #include "counted.h"
-#include "tilepress/cost_model.h"
+#include "report/scheme_names.h"
 
 namespace tilepress {
 namespace {
@@ -57,12 +57,14 @@ std::string rates_text(const std::vector<std::string>& names, const std::vector<
                          "-", "-");
       continue;
     }
-    out +=
-        fmt::format("  {:<{}}  {:>9.4f}  {:>12.4f}  {:>6.2f} %  {:>5.2f} %  {:>7.3f} %  {:>6.1f} %\n",
-                    names[i], width, sum.rate(), sum.rate_payload(),
-                    percent(sum.bursts * sum.burst_bits, moved), percent(sum.csb_bits, moved),
-                    percent(sum.palette_bits, moved), sum.rate() > 0 ? 100 * energy_saving(sum.rate()) : 0.0);
+    const auto saving = scheme_saving(names[i], sum.rate());
+    out += fmt::format("  {:<{}}  {:>9.4f}  {:>12.4f}  {:>6.2f} %  {:>5.2f} %  {:>7.3f} %  {:>8}\n", names[i],
+                       width, sum.rate(), sum.rate_payload(), percent(sum.bursts * sum.burst_bits, moved),
+                       percent(sum.csb_bits, moved), percent(sum.palette_bits, moved),
+                       saving ? fmt::format("{:.1f} %", 100 * *saving) : "-");
   }
+  if (std::ranges::any_of(names, has_other_entries))
+    out += "  saving: the energy of DCP's structures is that of 64 entries for every size\n";
   for (size_t i = 0; i < names.size(); ++i)
     if (const SchemeStatistics& sum = totals[i]; sum.extra_bits > 0)
       out += fmt::format("  {}: rate {:.4f} with the further traffic it causes\n", names[i],

@@ -97,6 +97,17 @@ class Rows(CliCase):
         self.assertEqual([(s["checked_blocks"], s["mismatched_blocks"]) for s in run["schemes"]], [(1176 * 4, 0)] * 2)
         self.assertIn("5 frames seen, 5 captured, 333x217 RGBA8", done.stderr.decode())
 
+    def test_the_saving_is_of_schemes_with_dcp_structures_and_names_the_entries(self):
+        note = "  saving: the energy of DCP's structures is that of 64 entries for every size"
+        images = [golden("odd", i) for i in range(2)]
+        for sizes, noted in (("64", False), ("64,128", True)):
+            done = self.run_command("frames", "--force", "-s", "red", "-s", f"vdcp:fvc={{{sizes}}}", *images)
+            lines = done.stderr.decode().splitlines()
+            red, vdcp = (line for line in lines if line.startswith(("  red ", "  vdcp:fvc=64 ")))
+            self.assertRegex(red, " % +-$")
+            self.assertAlmostEqual(float(vdcp.split()[-2]), 100 * (1 - 1 / float(vdcp.split()[1]) - 4.83 / 451.2), delta=0.06)
+            self.assertEqual(note in lines, noted, lines)
+
     def test_toggles_fill_the_last_columns_and_dram_sets_the_burst(self):
         images = [golden("odd", i) for i in range(2)]
         done = self.run_command("frames", "-q", "-o", "out", "-s", "red", "--dram", "lpddr4", "--toggles", "16", *images)

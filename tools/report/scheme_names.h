@@ -1,8 +1,10 @@
 // Scheme names: what the registry knows about a scheme that a run names.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "tilepress/cost_model.h"
 #include "tilepress/scheme.h"
 
 namespace tilepress {
@@ -28,6 +30,21 @@ inline SchemeGroup scheme_group(const std::string& spec) {
 inline bool has_dcp_structures(const std::string& spec) {
   const SchemeInfo* info = scheme_info(spec);
   return info != nullptr && info->has_dcp_structures;
+}
+
+/// Share of DRAM energy that a scheme saves at a rate above 0 (spec §9). Nothing for schemes without DCP's
+/// structures.
+inline std::optional<double> scheme_saving(const std::string& spec, double rate,
+                                           const CostConstants& constants = {}) {
+  if (!has_dcp_structures(spec)) return std::nullopt;
+  return energy_saving(rate, constants);
+}
+
+/// Whether the scheme has more or fewer entries than those whose energy the paper states: figures of it say
+/// so.
+inline bool has_other_entries(const std::string& spec) {
+  const auto parsed = parse_scheme(spec);
+  return has_dcp_structures(spec) && parsed && parsed->number("fvc") != CostConstants{}.table_entries;
 }
 
 }  // namespace tilepress

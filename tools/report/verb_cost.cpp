@@ -29,6 +29,12 @@ struct CostOptions {
   std::vector<double> rates;
   CostConstants constants;
   bool json = false;
+
+  bool has_table_entries() const { return entries == constants.table_entries; }
+  /// The energy of the structures is the paper's, which holds for other entries.
+  bool energy_is_of_table() const {
+    return !has_table_entries() && constants.structures_pj_per_byte == CostConstants{}.structures_pj_per_byte;
+  }
 };
 
 double bytes_of(uint64_t bits) {
@@ -101,7 +107,8 @@ void print_json(const CostOptions& options) {
       {"ccd_bytes", bytes_of(ccd_storage_bits(options.entries, options.load.pixel_bits))},
       {"rccd_bytes", bytes_of(options.surfaces * ccd_storage_bits(options.entries, options.load.pixel_bits))},
       {"area_mm2", structures_area_mm2(options.entries, options.surfaces, options.constants)},
-      {"area_is_extrapolated", options.entries != options.constants.table_entries},
+      {"area_is_extrapolated", !options.has_table_entries()},
+      {"energy_is_not_scaled", options.energy_is_of_table()},
       {"mpixels_per_s",
        {{"fvc", {{"needed", check.fvc_needed}, {"offered", options.constants.fvc.mpixels_per_s}}},
         {"ccd", {{"needed", check.ccd_needed}, {"offered", options.constants.ccd.mpixels_per_s}}},
@@ -133,7 +140,7 @@ void print_text(const CostOptions& options) {
   std::printf("  rCCD  %9.0f bytes, one each for %u surfaces\n", std::ceil(options.surfaces * ccd_bytes),
               options.surfaces);
   print_structures(constants);
-  const bool extrapolated = options.entries != constants.table_entries;
+  const bool extrapolated = !options.has_table_entries();
   std::printf("area of all  %11.9f mm2%s\n", structures_area_mm2(options.entries, options.surfaces, constants),
               extrapolated ? ", a linear extrapolation of the figures for 64 entries" : "");
   std::printf("bandwidth at %g Hz%s\n", load.refresh_hz,
@@ -143,8 +150,9 @@ void print_text(const CostOptions& options) {
   print_bandwidth("CCD", check.ccd_needed, constants.ccd.mpixels_per_s);
   print_bandwidth("rCCD", check.rccd_needed, constants.rccd.mpixels_per_s);
   const double raw = load.raw_bytes_per_s();
-  std::printf("energy, %g pJ per byte moved, %g pJ per raw byte in the structures, %g passes per frame\n",
-              constants.dram_pj_per_byte, constants.structures_pj_per_byte, load.passes);
+  std::printf("energy, %g pJ per byte moved, %g pJ per raw byte in the structures%s, %g passes per frame\n",
+              constants.dram_pj_per_byte, constants.structures_pj_per_byte,
+              options.energy_is_of_table() ? " (as with 64 entries: not scaled)" : "", load.passes);
   std::printf("  raw          %9.2f MB/s %9.2f mW\n", raw / 1e6, dram_power_mw(raw, constants));
   for (const double rate : options.rates)
     std::printf("  rate %7.4g %9.2f MB/s %9.2f mW, saves %.1f %%\n", rate, raw / rate / 1e6,
