@@ -2,6 +2,7 @@
 """Typical slips on the command line: each ends in one line that names the way out.
 
 Usage: slips_test.py TILEPRESS GOLDEN_FOLDER [TEST...]"""
+import csv
 import os
 import re
 import shutil
@@ -194,6 +195,18 @@ class Labels(CliCase):
         self.assertIn(b"\n::error title=tilepress compare run::rate of vdcp => red fell by ", worse.stdout)
         self.assertIn(b"::notice title=tilepress compare::1 rate compared, none fell", better.stdout)
 
+
+    def test_compare_takes_a_default_for_the_value_that_is_named(self):
+        self.frames("run")
+        self.run_command("frames", "-q", "-s", "vdcp:fvc={32,64}", "-o", "sweep", IMAGE, golden("odd", 1))
+        for words, schemes in ((["--map", "vdcp => vdcp:fvc=64", "--map", "vdcp:policy=lfc => vdcp"],
+                                ["vdcp => vdcp:fvc=64", "vdcp:policy=lfc => vdcp"]), ([], ["vdcp"])):
+            done = self.run_command("compare", "run", "sweep", "--format", "csv", *words)
+            rows = list(csv.DictReader(done.stdout.decode().splitlines()))
+            self.assertEqual([(row["scheme"], row["frames"], row["change"]) for row in rows], [(s, "1", "0") for s in schemes], done.stderr)
+            self.assertEqual(done.returncode, 0)
+        self.expect(2, "--map vdcp => vdcp:fvc=16: sweep has no scheme 'vdcp:fvc=16' (did you mean 'vdcp:fvc=64'? it has vdcp:fvc=32, "
+                    "vdcp:fvc=64)", "compare", "run", "sweep", "--map", "vdcp => vdcp:fvc=16")
 
 if __name__ == "__main__":
     unittest.TestCase.maxDiff = None

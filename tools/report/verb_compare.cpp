@@ -1,5 +1,4 @@
 // tilepress compare: two runs or batches side by side, and an exit status for regressions.
-#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -82,7 +81,7 @@ Result<void> check_map(const std::vector<SchemePair>& map, const RunRecord& run,
                        std::string SchemePair::*side) {
   const std::vector<std::string>& names = run.scheme_names;
   for (const SchemePair& pair : map)
-    if (std::find(names.begin(), names.end(), pair.*side) == names.end()) {
+    if (scheme_position(names, pair.*side) == names.size()) {
       const std::vector<std::string_view> known(names.begin(), names.end());
       return Error{ErrorKind::kBadValue,
                    "--map " + pair.text() + ": " + run.path + " has no scheme '" + pair.*side + "'" +

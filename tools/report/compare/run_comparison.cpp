@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "study/configuration.h"
+
 namespace tilepress {
 namespace {
 
@@ -24,16 +26,28 @@ bool same_picture(const FrameStatistics& a, const FrameStatistics& b) {
          std::abs(a.metrics.entropy - b.metrics.entropy) < 1e-9;
 }
 
+/// The text of its configuration, or the name itself if this build has no such scheme.
+std::string configuration_of(const std::string& name) {
+  const auto spec = parse_scheme(name);
+  return spec ? canonical_text(*spec) : name;
+}
+
 /// Names of `names` that `others` lacks.
 std::vector<std::string> missing_from(const std::vector<std::string>& others,
                                       const std::vector<std::string>& names) {
   std::vector<std::string> out;
   for (const std::string& name : names)
-    if (std::find(others.begin(), others.end(), name) == others.end()) out.push_back(name);
+    if (scheme_position(others, name) == others.size()) out.push_back(name);
   return out;
 }
 
 }  // namespace
+
+size_t scheme_position(const std::vector<std::string>& names, const std::string& scheme) {
+  auto found = std::ranges::find(names, scheme);
+  if (found == names.end()) found = std::ranges::find(names, configuration_of(scheme), configuration_of);
+  return static_cast<size_t>(found - names.begin());
+}
 
 RunComparison compare_runs(const RunRecord& a, const RunRecord& b, const FrameSet& frames,
                            const std::vector<SchemePair>& map) {
@@ -60,11 +74,8 @@ RunComparison compare_runs(const RunRecord& a, const RunRecord& b, const FrameSe
   out.only_b = frames_b.size() - pairs.size();
 
   for (const SchemePair& pair : schemes) {
-    const auto in_a = std::find(a.scheme_names.begin(), a.scheme_names.end(), pair.a);
-    const auto in_b = std::find(b.scheme_names.begin(), b.scheme_names.end(), pair.b);
-    if (in_a == a.scheme_names.end() || in_b == b.scheme_names.end()) continue;
-    const auto i = static_cast<size_t>(in_a - a.scheme_names.begin());
-    const auto j = static_cast<size_t>(in_b - b.scheme_names.begin());
+    const size_t i = scheme_position(a.scheme_names, pair.a), j = scheme_position(b.scheme_names, pair.b);
+    if (i == a.scheme_names.size() || j == b.scheme_names.size()) continue;
     SchemeComparison scheme;
     scheme.scheme = pair.text();
     scheme.a.burst_bits = a.burst_bits;

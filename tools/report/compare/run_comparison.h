@@ -44,8 +44,12 @@ struct SchemePair {
   std::string text() const { return a == b ? a : a + " => " + b; }
 };
 
-/// Compares the frames of `frames` (all if it is every frame). Without `map` the schemes of equal names are
-/// compared, with it only its pairs.
+/// Position of the scheme, or else of one with the same configuration: "vdcp" is "vdcp:fvc=64". names.size()
+/// if there is none.
+size_t scheme_position(const std::vector<std::string>& names, const std::string& scheme);
+
+/// Compares the frames of `frames` (all if it is every frame). Without `map` the schemes of equal
+/// configurations are compared, with it only its pairs.
 RunComparison compare_runs(const RunRecord& a, const RunRecord& b, const FrameSet& frames,
                            const std::vector<SchemePair>& map = {});
 
