@@ -12,6 +12,7 @@
 #include "report/category_rules.h"
 #include "report/report_page.h"
 #include "report/run_batch.h"
+#include "streams/messages.h"
 #include "streams/output_file.h"
 #include "verb.h"
 
@@ -105,7 +106,10 @@ int verb_report(int argc, char** argv) {
     title = "Compression report: " +
             (entries->size() == 1 ? entries->front().name : counted(entries->size(), "run"));
   const auto written = write_whole_file(options.output, report_page(batch, title), true);
-  return written ? kExitDone : fail(kExitFailed, written.error());
+  if (!written) return fail(kExitFailed, written.error());
+  if (options.output != "-")
+    show(options.output + ": a page about " + counted(entries->size(), "run") + "\n");
+  return kExitDone;
 }
 
 }  // namespace tilepress

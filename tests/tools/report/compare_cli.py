@@ -97,8 +97,11 @@ def main():
         empty.mkdir()
         expect("holds no run" in tilepress("report", empty)[2], "an empty folder is named")
 
+        page = folder / "x.html"
+        status, out, err = tilepress("report", a, b, "-o", page)
+        expect((status, out, err) == (0, "", f"{page}: a page about 2 runs\n"), f"report names its file: {err}")
         status, out, err = tilepress("report", a, "-o", "-", "--category", "*=2D", "--recategorize", "--title", "My <run>")
-        expect(status == 0 and out.startswith("<!doctype html>") and "<h1>My &lt;run&gt;</h1>" in out, "a page on standard output")
+        expect(status == 0 and err == "" and out.startswith("<!doctype html>") and "<h1>My &lt;run&gt;</h1>" in out, "a page on standard output")
         expect('data-v="2D"' in out, "--category sets the category")
     for fault in faults:
         print("FAULT:", fault)
