@@ -8,10 +8,11 @@ import re
 import shutil
 import unittest
 
-from cli_case import CliCase, golden, main
+from cli_case import CliCase, GOLDEN, golden, main
 
 FAILED, USAGE, NOTHING = 1, 2, 3
 IMAGE = golden("odd", 0)
+TRACE = os.path.join(GOLDEN, "../replay/traces/glmark2-desktop-egl.trace")
 FILES = {
     "key.toml": "verify = true\ntlie = 32\n",
     "value.toml": "\ntile = 33\n",
@@ -92,6 +93,21 @@ SLIPS = [
     ("report --category desk*=UI run", USAGE, "--category desk*=UI: matches no workload (there are run)"),
     ("compare run --map red=>vdpc", USAGE, "has no scheme 'vdpc' (did you mean 'vdcp'? it has red, vdcp)"),
     ("view run", NOTHING, "1 ended run is there; `tilepress report run -o report.html` shows it"),
+    # Inputs of another verb.
+    ("frames real.trace", FAILED, "; tilepress replay takes traces"),
+    ("frames -o x traces", FAILED, "traces: is a folder without images (raw .rgba files need --size WxH); tilepress replay takes traces"),
+    ("frames run", FAILED, "; tilepress report takes runs"),
+    ("pack -o x.tpk real.tpk", FAILED, "; tilepress unpack takes packed files"),
+    ("replay -q -o x IMAGE", FAILED, "; tilepress frames takes images"),
+    ("replay -q -o x shots", FAILED, "shots: is a directory, not a trace; tilepress frames takes images"),
+    ("info IMAGE", FAILED, "; tilepress frames takes images"),
+    ("report real.trace", FAILED, "real.trace: not a run directory; tilepress replay takes traces"),
+    ("summary shots", FAILED, "shots: holds no run (no frames.csv in it or below); tilepress frames takes images"),
+    ("compare run IMAGE", FAILED, "; tilepress frames takes images"),
+    ("unpack --csv real.trace", FAILED, "; tilepress replay takes traces"),
+    ("view real.trace", FAILED, "real.trace: not a folder; tilepress replay takes traces"),
+    ("top --once IMAGE", FAILED, ": not a folder; tilepress frames takes images"),
+    ("study real.trace shots", FAILED, "real.trace: is no study; name one before it, as in tilepress study paper real.trace"),
     # TOML.
     ("frames --config key.toml IMAGE", USAGE, "key.toml: line 2: unknown option 'tlie' (did you mean 'tile'?)"),
     ("frames --config value.toml IMAGE", USAGE, "value.toml: line 2: --tile 33: must be a multiple of 8"),
@@ -109,14 +125,17 @@ SLIPS = [
 class Slips(CliCase):
     def setUp(self):
         super().setUp()
-        for folder in ("shots", "empty"):
+        for folder in ("shots", "empty", "traces"):
             os.mkdir(self.path(folder))
+        for name in ("real.trace", "traces/a.trace"):
+            shutil.copy(TRACE, self.path(name))
         for number in range(2):
             shutil.copy(golden("odd", number), self.path(f"shots/{number}.png"))
         for name, text in FILES.items():
             self.write(name, text.encode())
         for name in ("game.trace", "shots.tpk"):
             self.write(name, b"")
+        self.assertEqual(self.run_command("pack", "-q", "-o", "real.tpk", "shots").returncode, 0)
         done = self.run_command("frames", "-q", "-s", "red", "-s", "vdcp", "-o", "run", "shots")
         self.assertEqual(done.returncode, 0, done.stderr)
 
@@ -177,6 +196,18 @@ class Labels(CliCase):
         self.assertEqual(self.summary("all", "--category", "*=3D"), [["menu", "UI"], ["b", "3D"]])
         self.assertEqual(self.summary("all", "--category", "*=3D", "--recategorize"), [["menu", "3D"], ["b", "3D"]])
 
+    def test_compare_takes_a_default_for_the_value_that_is_named(self):
+        self.frames("run")
+        self.run_command("frames", "-q", "-s", "vdcp:fvc={32,64}", "-o", "sweep", IMAGE, golden("odd", 1))
+        for words, schemes in ((["--map", "vdcp => vdcp:fvc=64", "--map", "vdcp:policy=lfc => vdcp"],
+                                ["vdcp => vdcp:fvc=64", "vdcp:policy=lfc => vdcp"]), ([], ["vdcp"])):
+            done = self.run_command("compare", "run", "sweep", "--format", "csv", *words)
+            rows = list(csv.DictReader(done.stdout.decode().splitlines()))
+            self.assertEqual([(row["scheme"], row["frames"], row["change"]) for row in rows], [(s, "1", "0") for s in schemes], done.stderr)
+            self.assertEqual(done.returncode, 0)
+        self.expect(2, "--map vdcp => vdcp:fvc=16: sweep has no scheme 'vdcp:fvc=16' (did you mean 'vdcp:fvc=32'? it has vdcp:fvc=32, "
+                    "vdcp:fvc=64)", "compare", "run", "sweep", "--map", "vdcp => vdcp:fvc=16")
+
     def test_compare_configurations_of_one_run(self):
         self.frames("run")
         self.frames("other", "--tile", "64")
@@ -195,18 +226,6 @@ class Labels(CliCase):
         self.assertIn(b"\n::error title=tilepress compare run::rate of vdcp => red fell by ", worse.stdout)
         self.assertIn(b"::notice title=tilepress compare::1 rate compared, none fell", better.stdout)
 
-
-    def test_compare_takes_a_default_for_the_value_that_is_named(self):
-        self.frames("run")
-        self.run_command("frames", "-q", "-s", "vdcp:fvc={32,64}", "-o", "sweep", IMAGE, golden("odd", 1))
-        for words, schemes in ((["--map", "vdcp => vdcp:fvc=64", "--map", "vdcp:policy=lfc => vdcp"],
-                                ["vdcp => vdcp:fvc=64", "vdcp:policy=lfc => vdcp"]), ([], ["vdcp"])):
-            done = self.run_command("compare", "run", "sweep", "--format", "csv", *words)
-            rows = list(csv.DictReader(done.stdout.decode().splitlines()))
-            self.assertEqual([(row["scheme"], row["frames"], row["change"]) for row in rows], [(s, "1", "0") for s in schemes], done.stderr)
-            self.assertEqual(done.returncode, 0)
-        self.expect(2, "--map vdcp => vdcp:fvc=16: sweep has no scheme 'vdcp:fvc=16' (did you mean 'vdcp:fvc=64'? it has vdcp:fvc=32, "
-                    "vdcp:fvc=64)", "compare", "run", "sweep", "--map", "vdcp => vdcp:fvc=16")
 
 if __name__ == "__main__":
     unittest.TestCase.maxDiff = None

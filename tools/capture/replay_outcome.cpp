@@ -5,6 +5,7 @@
 
 #include "exit_status.h"
 #include "frames/dumped_frames.h"
+#include "input_kind.h"
 #include "printable.h"
 #include "streams/messages.h"
 
@@ -52,7 +53,6 @@ bool convert_all_dumped_frames(const ReplayBatch& batch) {
 }
 
 int report_failures(const ReplayBatch& batch, const std::vector<std::string>& named) {
-  constexpr size_t kShownLines = 5;
   uint64_t captured = 0;
   bool failed = !convert_all_dumped_frames(batch), nothing = false;
   for (const auto& replay : batch.replays()) {
@@ -60,12 +60,12 @@ int report_failures(const ReplayBatch& batch, const std::vector<std::string>& na
     captured += result.frames_captured;
     if (is_good(result)) continue;
     (result.status == ReplayStatus::kNothingCaptured ? nothing : failed) = true;
-    if (std::find(named.begin(), named.end(), replay->input().path) != named.end()) continue;
-    fail(kExitFailed, replay->input().path + ": " +
-                          (result.status == ReplayStatus::kWaiting ? "not replayed" : result.reason));
-    const auto& lines = result.retracer_lines;
-    for (size_t i = lines.size() - std::min(lines.size(), kShownLines); i < lines.size(); ++i)
-      show("  said: " + printable(lines[i]) + "\n");
+    const std::string& path = replay->input().path;
+    if (std::find(named.begin(), named.end(), path) != named.end()) continue;
+    fail(kExitFailed, path + ": " +
+                          (result.status == ReplayStatus::kWaiting ? "not replayed" : result.reason) +
+                          verb_hint(path, "replay"));
+    show(last_words(result.retracer_lines));
   }
   if (nothing && !failed && captured == 0) return kExitNothingCaptured;
   return failed || nothing ? kExitFailed : kExitDone;

@@ -7,6 +7,7 @@
 
 #include "command_line.h"
 #include "counted.h"
+#include "input_kind.h"
 #include "printable.h"
 #include "tilepress/trace_summary.h"
 #include "verb.h"
@@ -104,7 +105,7 @@ int verb_info(int argc, char** argv) {
     const auto trace = summarize_trace(path);
     if (!trace) {
       Error error = about(path, trace.error());
-      if (!missing_paths({path}).empty()) error.text += path_hint(path);
+      error.text += missing_paths({path}).empty() ? verb_hint(path, "replay") : path_hint(path);
       status = fail(kExitFailed, error);
       if (json) list.push_back({{"path", path}, {"state", "unreadable"}, {"reason", trace.error().text}});
       continue;

@@ -13,6 +13,7 @@
 #include "frames/piped_file.h"
 #include "images/image_kind.h"
 #include "images/image_library.h"
+#include "input_kind.h"
 #include "streams/ending_signals.h"
 #include "streams/messages.h"
 #include "streams/standard_streams.h"
@@ -53,7 +54,8 @@ class SourceFinder {
       const auto added = !regular       ? add_pipe(path)
                          : is_raw(path) ? add_raw_file(path)
                                         : add_image_file(path, path, nullptr);
-      if (!added) return about(path, added.error());
+      if (!added)
+        return Error{added.error().kind, path + ": " + added.error().text + verb_hint(path, "frames")};
     }
     return std::move(found_);
   }

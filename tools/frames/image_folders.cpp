@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "images/image_kind.h"
+#include "input_kind.h"
 
 namespace tilepress {
 
@@ -79,7 +80,8 @@ Result<std::vector<std::string>> expand_image_folders(const std::vector<std::str
         path, [&](const std::string& file) { return is_raw(file) || is_image_or_movie(file); });
     if (!files) return files.error();
     if (files->empty())
-      return Error{ErrorKind::kFile, path + ": is a folder without images (raw .rgba files need --size WxH)"};
+      return Error{ErrorKind::kFile, path + ": is a folder without images (raw .rgba files need --size WxH)" +
+                                         verb_hint(path, "frames")};
     out.insert(out.end(), files->begin(), files->end());
   }
   return out;

@@ -2,9 +2,7 @@
 #include "frames/packed_reader.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <istream>
 
 #include "frames/packed_format.h"
@@ -205,16 +203,6 @@ Result<void> PackedFileReader::read(uint32_t index, CompressedSurface& out) {
   const auto done = read_body(*in_, *extent, out);
   if (!done) return about(where, done.error());
   return {};
-}
-
-Result<std::unique_ptr<PackedFile>> open_packed_file(const std::string& path) {
-  auto file = std::make_unique<PackedFile>();
-  file->path = path;
-  file->stream.open(path, std::ios::binary);
-  if (!file->stream) return Error{ErrorKind::kFile, path + ": " + std::strerror(errno)};
-  if (std::filesystem::is_directory(path)) return Error{ErrorKind::kFile, path + ": is a folder"};
-  if (const auto opened = file->reader.open(file->stream); !opened) return about(path, opened.error());
-  return file;
 }
 
 }  // namespace tilepress

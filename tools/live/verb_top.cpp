@@ -153,6 +153,8 @@ int verb_top(int argc, char** argv) {
   app.add_flag("--once", once, "Print the running captures once; exit 3 if there is none");
   if (const auto stop = parse_command_line(app, argc, argv)) return *stop;
   if (folders.empty()) folders = {"tilepress-out"};
+  if (const auto checked = check_capture_folders(folders); !checked)
+    return fail(kExitFailed, checked.error());
 
   CaptureList captures(folders);
   captures.refresh();

@@ -68,6 +68,8 @@ int verb_view(int argc, char** argv) {
       ->check(CLI::Range(1, 86400));
   if (const auto stop = parse_command_line(app, argc, argv)) return *stop;
 
+  if (const auto checked = check_capture_folders({request.folder}); !checked)
+    return fail(kExitFailed, checked.error());
   if (const std::string ended = ended_runs_text(request.folder); !ended.empty()) {
     if (holds_run(request.folder)) return fail(kExitNothingCaptured, request.folder + ": " + ended);
     say(MessageLevel::kWarning, request.folder + ": waiting for a capture; " + ended);

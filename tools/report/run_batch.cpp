@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "input_kind.h"
 #include "way_out.h"
 
 namespace tilepress {
@@ -61,12 +62,14 @@ Result<std::vector<BatchEntry>> find_runs(const std::vector<std::string>& paths)
   for (const std::string& path : paths) {
     std::error_code code;
     if (!fs::is_directory(path, code))
-      return Error{ErrorKind::kFile, path + (fs::exists(path, code) ? ": not a run directory"
-                                                                    : ": no such folder" + path_hint(path))};
+      return Error{ErrorKind::kFile,
+                   path + (fs::exists(path, code) ? ": not a run directory" + verb_hint(path, "report")
+                                                  : ": no such folder" + path_hint(path))};
     const size_t before = found.size();
     collect(path, found);
     if (found.size() == before)
-      return Error{ErrorKind::kFile, path + ": holds no run (no frames.csv in it or below)"};
+      return Error{ErrorKind::kFile,
+                   path + ": holds no run (no frames.csv in it or below)" + verb_hint(path, "report")};
   }
   std::vector<std::string> plain;
   for (const std::string& path : found) plain.push_back(plain_name(path));

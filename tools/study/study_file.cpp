@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "input_kind.h"
 #include "study/configuration.h"
 #include "study/study_assets.h"
 #include "study/text_file.h"
@@ -275,6 +276,9 @@ Result<StudyFile> load_study(const std::string& name) {
   }
   const auto folder = std::filesystem::path(name).parent_path();
   auto study = parse_study_in(folder, *text);
+  if (!study && !verb_hint(name).empty())
+    return Error{ErrorKind::kFile,
+                 name + ": is no study; name one before it, as in tilepress study paper " + shell_word(name)};
   if (!study) return about(name, study.error());
   for (std::string& input : study->inputs) input = (folder / input).lexically_normal().string();
   return study;
