@@ -3,6 +3,9 @@
 
 Usage: cli_record_test.py TILEPRESS TRACE_FOLDER [TEST...]"""
 import json
+import os
+import signal
+import time
 
 from cli_case import CliCase, XServer, main
 
@@ -44,6 +47,29 @@ class Records(CliCase):
         text = self.record("--", "sh", "-c", 'exec "$0" "$@"', "glmark2-es2", *SCENE)
         self.assertIn("running it again for EGL", text)
         self.assertEqual(self.recorded()["api"], "EGL")
+
+    def test_shows_the_lines_of_the_program_and_not_those_of_apitrace(self):
+        # The program leaves a process that holds standard error.
+        script = 'printf "apit" >&2; printf "ude\n" >&2; sleep 100 >&2 & echo $! > pid; "$0" "$@" >&2'
+        words = ["--api", "egl", "--", "sh", "-c", script, "glmark2-es2", *SCENE]
+        begin = time.monotonic()
+        done = self.run_command("record", "-o", "x.trace", *words, env={"DISPLAY": self.server.display, "WAYLAND_DISPLAY": ""})
+        with open(self.path("pid"), encoding="utf-8") as file:
+            os.kill(int(file.read()), signal.SIGTERM)
+        self.assertLess(time.monotonic() - begin, 90)
+        lines = done.stderr.decode().splitlines()
+        self.assertEqual((lines[0], done.returncode), ("apitude", 0), lines)
+        self.assertEqual([line for line in lines if line.startswith("apitrace: ")], [])
+        self.assertIn("GL_RENDERER", done.stderr.decode())
+        self.assertRegex(lines[-1], r"^x.trace: \d+ frames, 96x64, EGL")
+
+    def test_shows_the_last_lines_of_apitrace_if_it_fails(self):
+        done = self.run_command("record", "-o", "x.trace", "--api", "egl", "--", "sh", "-c", "echo mine >&2",
+                                env={"DISPLAY": self.server.display})
+        said = done.stderr.decode().splitlines()
+        self.assertEqual((said[0], done.returncode), ("mine", NOTHING))
+        self.assertTrue(said[1].startswith("tilepress: sh: no frame recorded: "), said)
+        self.assertTrue(said[2].startswith("  said: apitrace: loaded into "), said)
 
     def test_nothing_of_a_program_without_gl(self):
         text = self.record("--", "sh", "-c", "true", status=NOTHING)

@@ -1,9 +1,11 @@
 // tilepress record: a program under apitrace, the API chosen and the recording checked.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "capture/child_process.h"
+#include "capture/tracer_output.h"
 #include "command_line.h"
 #include "counted.h"
 #include "printable.h"
@@ -33,27 +35,28 @@ enum class RecordApi : uint8_t { kAuto, kEgl, kGlx };
 struct RecordOptions {
   std::string output;
   RecordApi api = RecordApi::kAuto;
+  bool verbose = false;
   std::vector<std::string> program;
 };
 
 std::optional<int> parse_options(int argc, char** argv, RecordOptions& options) {
   CLI::App app("Records the EGL or GLX calls of PROGRAM into an apitrace trace.");
   app.footer(kExamples);
-  bool verbose = false;
   app.add_option("-o,--output", options.output, "The trace to write")->type_name("FILE")->required();
   add_choice_option<RecordApi>(
       app, "--api", options.api,
       {{"auto", RecordApi::kAuto}, {"egl", RecordApi::kEgl}, {"glx", RecordApi::kGlx}},
       "Which calls to record (default: auto)");
-  app.add_flag("-v,--verbose", verbose, "Explain each step");
+  app.add_flag("-v,--verbose", options.verbose, "Explain each step, and show what apitrace prints");
   if (auto status = parse_launch_line(app, argc, argv, options.program)) return status;
-  if (verbose) set_message_level("info");
+  if (options.verbose) set_message_level("info");
   return std::nullopt;
 }
 
 struct Recording {
   int program_status = 0;
   Result<TraceSummary> trace;  ///< of a recording with frames; or why the recording cannot be used
+  std::vector<std::string> said = {};  ///< apitrace's lines, unless they are shown at once
 };
 
 Result<TraceSummary> look_at(const std::string& file, TraceApi api) {
@@ -73,9 +76,16 @@ Recording record_once(const RecordOptions& options, TraceApi api, const std::str
   std::vector<std::string> command = {"apitrace", "trace", api == TraceApi::kEgl ? "--api=egl" : "--api=gl",
                                       "--output=" + file};
   command.insert(command.end(), options.program.begin(), options.program.end());
+  TracerOutput output;
+  if (!options.verbose) output.begin();
   const auto child = run_child(command, {});
+  output.end();
   if (!child) return {start_status(child.error()), child.error()};
-  return {child->status(), look_at(file, api)};
+  return {child->status(), look_at(file, api), output.lines()};
+}
+
+bool is_fault(const std::string& line) {
+  return line.starts_with("apitrace: warning: ") || line.starts_with("apitrace: error: ");
 }
 
 /// Gives a good recording its name and says what it holds.
@@ -92,6 +102,9 @@ int keep(const RecordOptions& options, const Recording& recording, const std::st
     text += "  the last calls are cut off, the frames before are good: " + trace.reason + "\n";
   if (recording.program_status != 0)
     text += fmt::format("  the program ended with status {}\n", recording.program_status);
+  if (const auto faults = std::ranges::count_if(recording.said, is_fault); faults > 0)
+    text += "  apitrace reports " + counted(static_cast<uint64_t>(faults), "problem") +
+            "; -v shows what it prints\n";
   show(text);
   return kExitDone;
 }
@@ -138,7 +151,7 @@ int verb_record(int argc, char** argv) {
     if (recording.program_status != 0)
       reason += fmt::format(" (it ended with status {})", recording.program_status);
     const int status = fail(kExitNothingCaptured, name + ": no frame recorded: " + reason);
-    show(display_hint("record"));
+    show(last_words(recording.said) + display_hint("record"));
     return status;
   }
 }
