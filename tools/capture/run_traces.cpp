@@ -9,25 +9,17 @@
 namespace tilepress {
 namespace {
 
-constexpr std::string_view kNamePart = "{name}";
-
-std::string trace_path(const std::string& pattern, const std::string& name) {
-  std::string path = pattern;
-  const size_t at = path.find(kNamePart);
-  return at == std::string::npos ? path : path.replace(at, kNamePart.size(), name);
-}
-
 Result<std::string> write_run_trace(const LoggedRun& run, const MemoryTraceOptions& options, bool has_times,
                                     ProgressMode progress) {
   const auto frames = open_logged_frames(run.folder + "/" + std::string(kBlockLogName), has_times);
   if (!frames) return frames.error();
-  return write_frame_trace(trace_path(options.path, run.name), options, **frames, progress);
+  return write_frame_trace(options.path_of(run.name), options, **frames, progress);
 }
 
 }  // namespace
 
 Result<void> check_trace_path(const MemoryTraceOptions& options, size_t runs) {
-  if (options.path.empty() || runs < 2 || options.path.find(kNamePart) != std::string::npos) return {};
+  if (options.path.empty() || runs < 2 || options.has_name_part()) return {};
   return Error{ErrorKind::kBadValue, "--memory-trace " + options.path + ": " + std::to_string(runs) +
                                          " runs need a file each; put {name} into the path"};
 }

@@ -69,7 +69,7 @@ std::optional<int> parse_options(int argc, char** argv, VerbOptions& options) {
   app.add_flag("--resume", replay.resume, "Keep the finished runs of a batch and replay the other traces");
   app.add_flag("--force", options.force, "Replace the runs of earlier replays")->excludes("--resume");
   add_replay_choices(app, replay.retracer, replay.display, replay.timeout);
-  add_memory_trace_options(app, options.trace, std::string(kMemoryTraceHelp) + "; {name} in it stands for the name of a trace");
+  add_memory_trace_options(app, options.trace, kRunTraceHelp);
   add_trace_refresh_option(app, options.trace);
   add_progress_option(app, options.progress);
   app.add_flag("-v,--verbose", options.verbose, "Explain each step");

@@ -55,7 +55,7 @@ std::optional<int> parse_options(int argc, char** argv, RunVerbOptions& options)
   app.add_flag("-q,--quiet", launch.quiet, "No summary");
   app.add_flag("--measure-overhead", options.measure_overhead,
                "Run the program with and without capture, compare frame times, write DIR/overhead.csv");
-  add_memory_trace_options(app, options.trace, kMemoryTraceHelp);
+  add_memory_trace_options(app, options.trace, kRunTraceHelp);
   add_trace_refresh_option(app, options.trace);
   app.get_option("--memory-trace")->excludes("--measure-overhead");
   app.add_option("--rounds", options.rounds, "With --measure-overhead: runs of each kind (default: 2)")

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "capture/output_folder.h"
 #include "command_line.h"
 #include "common_options.h"
 #include "frames/dumped_frames.h"
@@ -102,12 +103,15 @@ std::optional<int> parse(int argc, char** argv, FramesOptions& options) {
       ->check(CLI::Range(1, 1024));
   add_progress_option(app, options.progress);
   add_cdf_options(app, options.cdf_path, options.cdf_frames);
-  add_memory_trace_options(app, options.trace, kMemoryTraceHelp);
+  add_memory_trace_options(app, options.trace, kRunTraceHelp);
   add_trace_refresh_option(app, options.trace);
   app.add_flag("--force", options.force, "Replace the run in the folder");
   app.add_flag("-q,--quiet", options.quiet, "Print no progress and no summary");
   if (const auto status = parse_command_line(app, argc, argv)) return status;
   options.trace.force = options.force;
+  options.trace.path = options.trace.path_of(
+      options.to_stdout() ? "frames"
+                          : std::filesystem::path(absolute_folder(options.run.output)).filename().string());
   if (const auto asked = ask_for_trace(options.trace, options.run); !asked) return fail_trace(asked.error());
   return std::nullopt;
 }

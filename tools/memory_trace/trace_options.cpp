@@ -31,6 +31,8 @@ constexpr FormatName kFormatNames[] = {
     {"ramulator2-data", TraceFormat::kRamulator2Data},
 };
 
+constexpr std::string_view kNamePart = "{name}";
+
 std::string format_list(const std::string& separator = ", ") {
   std::string list;
   for (const auto& [name, format] : kFormatNames) list += (list.empty() ? "" : separator) + std::string(name);
@@ -39,7 +41,7 @@ std::string format_list(const std::string& separator = ", ") {
 
 /// Fails if the file cannot be made: known before a capture that may take long.
 Result<void> check_path(const MemoryTraceOptions& options) {
-  if (options.path == "-" || options.path.find('{') != std::string::npos) return {};
+  if (options.path == "-" || options.has_name_part()) return {};
   std::error_code code;
   const std::filesystem::path path(options.path);
   if (std::filesystem::is_regular_file(path, code) && !options.force)
@@ -80,6 +82,14 @@ void set_levels(MemoryTraceOptions& options, const std::string& text) {
 }
 
 }  // namespace
+
+bool MemoryTraceOptions::has_name_part() const {
+  return path.find(kNamePart) != std::string::npos;
+}
+
+std::string MemoryTraceOptions::path_of(const std::string& run_name) const {
+  return has_name_part() ? std::string(path).replace(path.find(kNamePart), kNamePart.size(), run_name) : path;
+}
 
 void add_memory_trace_options(CLI::App& app, MemoryTraceOptions& options, const std::string& path_help) {
   constexpr const char* kGroup = "Memory trace";

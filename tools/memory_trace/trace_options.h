@@ -34,11 +34,17 @@ struct MemoryTraceOptions {
   bool force = false;
 
   TracedForm form() const { return raw ? TracedForm::kRaw : TracedForm::kCompressed; }
+  bool has_name_part() const;
+  /// `path` for the run of this name.
+  std::string path_of(const std::string& run_name) const;
 };
 
 constexpr const char* kMemoryTraceHelp =
     "Write the memory requests of one scheme to FILE, in the format that its suffix tells (.csv, .gem5, "
     ".dramsim3, .ramulator2, …, also with .gz or .zst)";
+/// The same for runs. The name of a replay's run is that of its trace, else that of the run's folder.
+inline const std::string kRunTraceHelp =
+    std::string(kMemoryTraceHelp) + "; {name} in it stands for the name of a run";
 
 /// Adds --memory-trace, if `path_help` is not empty, and the options that go with it. `options` must outlive
 /// the parsing.

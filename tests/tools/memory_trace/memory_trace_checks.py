@@ -184,6 +184,12 @@ class Frames(MemoryTraceCase):
                 self.expect(status, line, "frames", "-o", "o", *words, golden("odd", 1))
                 self.assert_absent("o")
 
+    def test_the_path_of_a_trace_may_hold_the_name_of_the_run(self):
+        self.good("frames", "-q", "-s", "vdcp", "-o", "all/menu", "--memory-trace", "{name}.csv", golden("odd", 1))
+        self.assertEqual(counts_of(csv_requests(self.text("menu.csv"))), expected_requests(self.path("all/menu"), "vdcp"))
+        self.expect(1, "menu.csv: exists; choose another name or remove it", "frames", "-s", "vdcp", "-o", "menu", "--memory-trace",
+                    "{name}.csv", golden("odd", 1))
+
     def test_sources_without_blocks_are_refused(self):
         os.mkdir(self.path("empty"))
         self.expect(1, "empty: holds no blocks.log; capture it with --memory-trace FILE", "memory-trace", "empty", "-o", "t.csv")
