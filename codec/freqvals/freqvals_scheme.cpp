@@ -1,6 +1,6 @@
 // FreqVals: Huffman codes over the FVC's colours with an escape (frequent values, Yang et al. 2000).
 //
-//   CSB       bursts of the block, 0 = raw: ceil(log2(raw / burst + 1)) bits, see ras_classes.h
+//   CSB       bursts of the block, 0 = raw: ceil(log2(raw / burst + 1)) bits, see memory/size_classes.h
 //   payload   |code| or |escape code|pixel 32| for each pixel in traversal order, fewer than 2048 bits; or 64
 //             raw pixels
 //   tables    |v|color 32| N ×, then |length 6| N ×, then |length of the escape 6|; v = valid, lengths of
@@ -17,8 +17,8 @@
 #include "dcp/ccd_view.h"
 #include "dictionary/color_table.h"
 #include "dictionary/huffman.h"
+#include "memory/size_classes.h"
 #include "pixels/raw_bits.h"
-#include "ras/ras_classes.h"
 #include "registry.h"
 
 namespace tilepress {
@@ -28,8 +28,8 @@ constexpr uint32_t kPixelBits = 32, kLengthBits = 6;
 constexpr uint32_t kRawBits = kBlockPixels * kPixelBits;
 constexpr uint32_t kSlotBits = 1 + kPixelBits + kLengthBits;
 
-RasClasses burst_classes(const ModelOptions& model) {
-  return {RasSizes::kBurst, kRawBits, model.burst_bits};
+SizeClasses burst_classes(const ModelOptions& model) {
+  return {SizeChoice::kBurst, kRawBits, model.burst_bits};
 }
 
 class FreqValsEncoder final : public BlockEncoder {
@@ -87,7 +87,7 @@ class FreqValsEncoder final : public BlockEncoder {
     return bits;
   }
   const FvcConfig fvc_;
-  const RasClasses classes_;
+  const SizeClasses classes_;
   const CcdView* view_ = nullptr;
   const Ccd* ccd_ = nullptr;  ///< in force for the frame; null while there is none
   CanonicalCode code_;
@@ -141,7 +141,7 @@ class FreqValsDecoder final : public BlockDecoder {
     return !tables.overran() && code_.assign(lengths);
   }
   const uint32_t entries_;
-  const RasClasses classes_;
+  const SizeClasses classes_;
   bool has_table_ = false;
   ColorTable table_;
   CanonicalCode code_;

@@ -1,4 +1,4 @@
-// HDCP: codes each block with VDCP or RAS, whichever takes fewer bursts (paper §Hybrid Schemes; spec §5).
+// HDCP: codes each block with VDCP or RAS, whichever takes fewer bursts (paper §Hybrid Schemes).
 //
 //   CSB       16 × 5 bits. VDCP block: per sub-block its width 0 … M, or 31 = raw sub-block.
 //             RAS block: 16 + class in every sub-block, so that each sub-block says how to read the block.
@@ -25,7 +25,7 @@ class HdcpEncoder final : public DcpFamilyEncoder {
   HdcpEncoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions& model)
       : DcpFamilyEncoder(spec, format),
         format_(format),
-        classes_{RasSizes::kThree, kBlockPixels * format.pixel_bits, model.burst_bits} {}
+        classes_{SizeChoice::kThree, kBlockPixels * format.pixel_bits, model.burst_bits} {}
 
   void subscribe(SharedAnalyses& analyses) override {
     DcpFamilyEncoder::subscribe(analyses);
@@ -66,7 +66,7 @@ class HdcpEncoder final : public DcpFamilyEncoder {
   uint32_t bursts(uint32_t bits) const { return (bits + classes_.burst_bits - 1) / classes_.burst_bits; }
 
   const FormatTraits format_;
-  const RasClasses classes_;
+  const SizeClasses classes_;
   const uint32_t* ras_bits_ = nullptr;  ///< of the block at hand
 };
 
@@ -75,7 +75,7 @@ class HdcpDecoder final : public DcpFamilyDecoder {
   HdcpDecoder(const SchemeSpec& spec, const FormatTraits& format, const ModelOptions& model)
       : DcpFamilyDecoder(spec, format),
         format_(format),
-        classes_{RasSizes::kThree, kBlockPixels * format.pixel_bits, model.burst_bits} {}
+        classes_{SizeChoice::kThree, kBlockPixels * format.pixel_bits, model.burst_bits} {}
 
   bool begin_frame(BitReader& tables, uint64_t table_bits, uint32_t csb_bits) override {
     ras_only_ = csb_bits == classes_.csb_bits();
@@ -103,7 +103,7 @@ class HdcpDecoder final : public DcpFamilyDecoder {
 
  private:
   const FormatTraits format_;
-  const RasClasses classes_;
+  const SizeClasses classes_;
   bool ras_only_ = false;
 };
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "dcp/index_widths.h"
+#include "dcp/ccd_view.h"
 #include "lcc/lcc_planes.h"
 
 namespace tilepress {

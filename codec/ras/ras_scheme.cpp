@@ -1,6 +1,6 @@
-// RAS: predictive coding with size classes (Rasmusson et al. 2007 as the paper sets it; spec §6).
+// RAS: predictive coding with size classes (Rasmusson et al. 2007 as the paper sets it).
 //
-//   CSB       class of the block, see ras_classes.h
+//   CSB       class of the block, see memory/size_classes.h
 //   payload   the stream of ras_stream.h, zero-padded to the class; or 64 raw pixels
 //   tables    none
 #include "ras/ras_bits.h"
@@ -14,11 +14,11 @@ struct RasCoder {
   RasCoder(const SchemeSpec& spec, const FormatTraits& traits, const ModelOptions& model)
       : format(traits),
         ycocg(spec.number("ycocg") == 1),
-        classes{static_cast<RasSizes>(spec.number("sizes")), kBlockPixels * traits.pixel_bits,
+        classes{static_cast<SizeChoice>(spec.number("sizes")), kBlockPixels * traits.pixel_bits,
                 model.burst_bits} {}
   const FormatTraits format;
   const bool ycocg;
-  const RasClasses classes;
+  const SizeClasses classes;
 };
 
 class RasEncoder final : public BlockEncoder {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "block_harness.h"
-#include "ras/ras_classes.h"
+#include "memory/size_classes.h"
 #include "ras/ras_samples.h"
 #include "ras/ras_stream.h"
 #include "tilepress/simd.h"
@@ -104,8 +104,8 @@ TEST(RasStream, IsTheSameWhereverItBegins) {
       }
 }
 
-TEST(RasClasses, ThreeSizesEndAtQuarters) {
-  const RasClasses classes{RasSizes::kThree, 2048, 128};
+TEST(SizeClasses, ThreeSizesEndAtQuarters) {
+  const SizeClasses classes{SizeChoice::kThree, 2048, 128};
   EXPECT_EQ(classes.csb_bits(), 2u);
   const std::pair<uint32_t, uint32_t> sizes[] = {{1, 512},     {224, 512},   {512, 512},
                                                  {513, 1024},  {1024, 1024}, {1025, 1536},
@@ -114,8 +114,8 @@ TEST(RasClasses, ThreeSizesEndAtQuarters) {
     EXPECT_EQ(classes.bits_of(classes.class_of(stream)), payload) << stream;
 }
 
-TEST(RasClasses, TwoSizesEndAtTheHalf) {
-  const RasClasses classes{RasSizes::kTwo, 2048, 128};
+TEST(SizeClasses, TwoSizesEndAtTheHalf) {
+  const SizeClasses classes{SizeChoice::kTwo, 2048, 128};
   EXPECT_EQ(classes.csb_bits(), 2u);
   EXPECT_EQ(classes.bits_of(classes.class_of(512)), 512u);
   EXPECT_EQ(classes.bits_of(classes.class_of(1024)), 1024u);
@@ -123,8 +123,8 @@ TEST(RasClasses, TwoSizesEndAtTheHalf) {
   EXPECT_FALSE(classes.valid(2));
 }
 
-TEST(RasClasses, BurstSizesAreWholeBursts) {
-  const RasClasses classes{RasSizes::kBurst, 2048, 128};
+TEST(SizeClasses, BurstSizesAreWholeBursts) {
+  const SizeClasses classes{SizeChoice::kBurst, 2048, 128};
   EXPECT_EQ(classes.bits_of(classes.class_of(224)), 256u);
   EXPECT_EQ(classes.bits_of(classes.class_of(256)), 256u);
   EXPECT_EQ(classes.bits_of(classes.class_of(257)), 384u);
@@ -134,7 +134,7 @@ TEST(RasClasses, BurstSizesAreWholeBursts) {
   // ceil(log2(2048/burst + 1)): 17 values for 16 bursts.
   const std::pair<uint32_t, uint32_t> widths[] = {{128, 5}, {64, 6}, {256, 4}, {512, 3}, {2048, 1}, {16, 8}};
   for (const auto& [burst, bits] : widths)
-    EXPECT_EQ((RasClasses{RasSizes::kBurst, 2048, burst}.csb_bits()), bits) << burst;
+    EXPECT_EQ((SizeClasses{SizeChoice::kBurst, 2048, burst}.csb_bits()), bits) << burst;
 }
 
 TEST(RasBits, EveryClassDecodes) {

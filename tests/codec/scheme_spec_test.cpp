@@ -7,8 +7,8 @@
 #include <string>
 
 #include "dcp/fvc_config.h"
+#include "memory/size_classes.h"
 #include "pixels/memory_lines.h"
-#include "ras/ras_classes.h"
 #include "tilepress/scheme.h"
 
 using namespace tilepress;
@@ -64,9 +64,9 @@ TEST(SchemeSpec, TakesEveryKeyOfTheFamily) {
 TEST(SchemeSpec, TakesTheKeysOfRas) {
   EXPECT_EQ(good("ras:ycocg=1").number("ycocg"), 1u);
   EXPECT_EQ(good("ras:ycocg=0").number("ycocg"), 0u);
-  EXPECT_EQ(static_cast<RasSizes>(good("ras:sizes=2").number("sizes")), RasSizes::kTwo);
-  EXPECT_EQ(static_cast<RasSizes>(good("ras:sizes=3").number("sizes")), RasSizes::kThree);
-  EXPECT_EQ(static_cast<RasSizes>(good("ras:sizes=burst,ycocg=1").number("sizes")), RasSizes::kBurst);
+  EXPECT_EQ(static_cast<SizeChoice>(good("ras:sizes=2").number("sizes")), SizeChoice::kTwo);
+  EXPECT_EQ(static_cast<SizeChoice>(good("ras:sizes=3").number("sizes")), SizeChoice::kThree);
+  EXPECT_EQ(static_cast<SizeChoice>(good("ras:sizes=burst,ycocg=1").number("sizes")), SizeChoice::kBurst);
 }
 
 TEST(SchemeSpec, TakesTheKeysOfTheFurtherSchemes) {
