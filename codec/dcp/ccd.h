@@ -1,5 +1,4 @@
-// Common Colors Dictionary: the colours of an FVC at a frame's end, most frequent first (paper §The CCD; spec
-// §4).
+// Common Colors Dictionary: the colours of an FVC at a frame's end, most frequent first (paper §The CCD).
 #pragma once
 
 #include <array>

@@ -40,7 +40,7 @@ class Collector {
   Fvc fvc_;
   std::unique_ptr<FastFvc> fast_;  ///< collects instead of fvc_, with the same result; may be null
   const bool takes_all_;           ///< fast_ takes every pixel
-  uint32_t until_sample_ = 1;      ///< pixels up to the next that fast_ takes
+  uint32_t until_sample_ = 1;      ///< 1: the next pixel is taken; 2: the one after it; …
 };
 
 /// A CCD in force, and the block at hand looked up in it.

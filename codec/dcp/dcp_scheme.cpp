@@ -1,4 +1,4 @@
-// DCP and ADCP: fixed-width palette indices per sub-block (paper §Baseline DCP, §Adaptive DCP; spec §5).
+// DCP and ADCP: fixed-width palette indices per sub-block (paper §Baseline DCP, §Adaptive DCP).
 //
 //   CSB       16 × 1 bit, in sub-block order: 1 = compressed, 0 = raw
 //   payload   per sub-block: compressed  4 × width bits of CCD index

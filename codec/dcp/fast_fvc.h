@@ -19,10 +19,10 @@ struct SeenPixels {
   uint32_t count;        ///< at most 64
   bool found;            ///< FastFvc::lookup() has the answers for these pixels
   const FewColors* few;  ///< of a whole block of few colours; null: many or unknown
-  uint64_t begins;       ///< see PixelKernels::run_begins; 0: not wanted by wants_runs()
+  uint64_t begins;       ///< see PixelKernels::run_begins; 0 if wants_runs() is false
 };
 
-/// Receives every pixel of a frame by its end, each once, in any order.
+/// Receives each pixel of a frame exactly once, in any order, before the frame ends.
 class ColorListener {
  public:
   virtual ~ColorListener() = default;

@@ -1,4 +1,4 @@
-// Frequent Values Collector: a small associative memory that counts colours (paper §The FVC; spec §3).
+// Frequent Values Collector: a small associative memory that counts colours (paper §The FVC).
 #pragma once
 
 #include <cstdint>

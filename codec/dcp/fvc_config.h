@@ -1,4 +1,4 @@
-// FVC configuration: the keys of every scheme with an FVC (paper §Factors affecting FVC Fidelity; spec §3).
+// FVC configuration: the keys of every scheme with an FVC (paper §Factors affecting FVC Fidelity).
 #pragma once
 
 #include <array>

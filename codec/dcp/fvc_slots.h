@@ -82,7 +82,7 @@ class LeastRecentOrder {
   std::vector<uint16_t> before_, after_;  ///< by slot, then the head of each set; the most recent comes first
 };
 
-/// The generator of the random policy (spec §3).
+/// The generator of the random policy.
 class Xorshift32 {
  public:
   void reset() { state_ = 0x9E3779B9u; }

@@ -1,4 +1,4 @@
-// HuffDCP: Huffman codes over the CCD instead of fixed-width indices (paper §Methodology; spec §5).
+// HuffDCP: Huffman codes over the CCD instead of fixed-width indices (paper §Methodology).
 //
 //   CSB, payload, tables    see dictionary/huffman_blocks.h; N slots
 #include "dcp/dcp_family.h"

@@ -1,4 +1,4 @@
-// Index widths: the bits of a sub-block's CCD indices (spec §5).
+// Index widths: the bits of a sub-block's CCD indices.
 //
 // The width is the bit width of the largest index: 0 → 0 bits, 1 → 1, 2 and 3 → 2 … The paper prints
 // ceil(log2(max index)), but its own example needs the bit width.

@@ -35,6 +35,10 @@ struct ProbeKernels {
   uint64_t (*compact)(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out);
 };
 
+#if defined(__x86_64__)
+/// See ProbeKernels::compact.
+uint64_t compact_by_vbmi(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out);
+#endif
 extern const ProbeKernels kPlainProbeKernels;
 extern const KernelSets<ProbeKernels> kProbeKernelSets;
 inline const ProbeKernels& probe_kernels() {

@@ -2,7 +2,6 @@
 #include "cpu/highway_targets.h"
 #include "dcp/index_widths.h"
 #include "dcp/probe_kernels.h"
-#include "dcp/slot_vbmi.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "dcp/probe_kernels_highway.cpp"
 #include "hwy/foreach_target.h"  // before Highway's other headers

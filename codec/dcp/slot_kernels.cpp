@@ -4,7 +4,6 @@
 #include <bit>
 
 #include "dcp/index_widths.h"
-#include "dcp/slot_vbmi.h"
 #include "pixels/pixel_kernels.h"
 
 namespace tilepress {

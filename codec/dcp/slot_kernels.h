@@ -58,6 +58,10 @@ extern const KernelSets<SlotKernels> kSlotKernelSets;
 inline const SlotKernels& slot_kernels() {
   return kSlotKernelSets.in_use();
 }
+#if defined(__x86_64__)
+extern const SlotKernels kVbmiSlotKernels;
+#endif
+
 /// True if a slot table is the fastest way to find one of `colors` colours.
 inline bool slot_table_pays(uint32_t colors) {
   return slot_kernels().byte_permutes && colors <= SlotTable::kSlots;

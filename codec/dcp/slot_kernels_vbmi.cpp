@@ -1,5 +1,5 @@
 // Slot kernels by AVX-512 VBMI: a register of 64 or 128 bytes serves as a table.
-#include "dcp/slot_vbmi.h"
+#include "dcp/slot_kernels.h"
 
 #if defined(__x86_64__)
 #include "cpu/vbmi.h"
@@ -233,25 +233,6 @@ TILEPRESS_VBMI bool load_slots(const uint32_t* top_left, uint32_t stride, uint32
 }
 
 }  // namespace
-
-TILEPRESS_VBMI uint64_t compact_by_vbmi(const uint32_t* pixels, uint64_t mask, uint32_t before,
-                                        uint32_t* out) {
-  __m512i last = _mm512_set1_epi32(static_cast<int>(before));  // of those packed, in every lane
-  uint64_t alike = 0;
-  uint32_t count = 0;
-  for (uint32_t i = 0; i < kBlockPixels; i += 16) {
-    const auto wanted = static_cast<__mmask16>(mask >> i);
-    const auto more = static_cast<uint32_t>(__builtin_popcount(wanted));
-    const __m512i packed = _mm512_maskz_compress_epi32(wanted, _mm512_loadu_si512(pixels + i));
-    _mm512_storeu_si512(out + count, packed);
-    const __mmask16 same = _mm512_cmpeq_epi32_mask(packed, _mm512_alignr_epi32(packed, last, 15));
-    alike |= uint64_t{same & ((1u << more) - 1)} << count;
-    const __m512i next = _mm512_permutexvar_epi32(_mm512_set1_epi32(static_cast<int>(more) - 1), packed);
-    last = more != 0 ? next : last;
-    count += more;
-  }
-  return alike;
-}
 
 constexpr SlotKernels kVbmiSlotKernels = {.byte_permutes = true,
                                           .load = load_slots,

@@ -1,4 +1,4 @@
-// VDCP: index width chosen per sub-block (paper §Variable DCP; spec §5).
+// VDCP: index width chosen per sub-block (paper §Variable DCP).
 //
 //   CSB       16 × ceil(log2(M+2)) bits: the width w of the sub-block's indices, all ones = raw
 //   payload   per sub-block: compressed  4 × w bits of CCD index (w = 0: nothing)

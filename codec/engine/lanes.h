@@ -9,8 +9,9 @@
 #include "engine/block_check.h"
 #include "engine/block_runs.h"
 #include "memory/surface_store.h"
+#include "tilepress/block_bits.h"
 #include "tilepress/scheme.h"
-#include "tilepress/surface_engine.h"
+#include "tilepress/statistics.h"
 
 namespace tilepress {
 

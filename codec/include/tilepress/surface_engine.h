@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "tilepress/block_bits.h"
 #include "tilepress/model_options.h"
 #include "tilepress/scheme_spec.h"
 #include "tilepress/statistics.h"
@@ -15,15 +16,8 @@ namespace tilepress {
 
 struct CompressedSurface;
 
-/// Payload bits of each block of a frame, for heat maps.
-struct BlockBits {
-  uint32_t blocks_x = 0, blocks_y = 0;
-  uint32_t raw_bits = 0;                       ///< of a block that is not compressed
-  std::vector<std::vector<uint16_t>> schemes;  ///< in their order, blocks in raster order; empty: skipped
-};
-
 /// Holds the state of one surface: the frame before, and one FVC and one CCD per FVC configuration in use. A
-/// surface is a buffer with a size and a pixel format (spec §1). A buffer of another shape needs an engine of
+/// surface is a buffer with a size and a pixel format. A buffer of another shape needs an engine of
 /// its own. Not thread-safe; engines are independent of each other.
 class SurfaceEngine {
  public:
