@@ -1,4 +1,4 @@
-// Scheme lists: the grammar `name:key={a,b},key={a..b}`, which stands for several specifications (spec §13).
+// Scheme lists: the grammar `name:key={a,b},key={a..b}`, which stands for several specifications.
 #include <algorithm>
 #include <charconv>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Common options: options that several verbs share on the command line (spec §12).
+// Common options: options that several verbs share on the command line.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -1,4 +1,4 @@
-// Exit status: what the command returns to its caller (spec §12).
+// Exit status: what the command returns to its caller.
 #pragma once
 
 namespace tilepress {

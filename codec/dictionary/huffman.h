@@ -1,4 +1,4 @@
-// Huffman codes over a dictionary: lengths by the rule of spec §5, canonical codes, decoding by a table.
+// Huffman codes over a dictionary: lengths by Huffman's rule, canonical codes, decoding by a table.
 #pragma once
 
 #include <array>

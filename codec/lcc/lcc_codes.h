@@ -27,9 +27,10 @@ struct LccLengths {
   static constexpr uint64_t kTableBits = uint64_t{kLccSymbols} * kBitsEach;
   std::array<uint8_t, kLccSymbols> of{};
 
-  /// Huffman's lengths by spec §5. Each count is raised by 1 and by a 1024th of the context's sum, rounded
-  /// down. So each symbol has a code, and no code is longer than 14 bits: the sum of a context is at most
-  /// 1041 times its smallest weight, and a code of 15 bits needs 1597 times (the 17th Fibonacci number).
+  /// Huffman's lengths, see dictionary/huffman.h. Each count is raised by 1 and by a 1024th of the context's
+  /// sum, rounded down. So each symbol has a code, and no code is longer than 14 bits: the sum of a context
+  /// is at most 1041 times its smallest weight, and a code of 15 bits needs 1597 times (the 17th Fibonacci
+  /// number).
   static LccLengths learned(const LccCounts& counts);
   /// Of frames without tables: residuals fall off by half with each step, wider where neighbours differ more.
   static const LccLengths& fixed();

@@ -31,7 +31,7 @@ namespace {
 
 constexpr uint32_t kRawBits = kBlockPixels * kLccPixelBits;
 constexpr uint32_t kRawStatus = kLccSolidColors;
-/// The largest palette: its table and the code lengths stay below 4 KiB (spec §15).
+/// The largest palette: its table and the code lengths stay below 4 KiB.
 constexpr uint32_t kMostEntries = 512;
 
 uint32_t bursts_of(uint32_t bits, uint32_t burst_bits) {

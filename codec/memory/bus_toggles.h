@@ -1,4 +1,4 @@
-// Bus toggles: how many wires of the memory bus change while a frame is written (spec §17).
+// Bus toggles: how many wires of the memory bus change while a frame is written.
 #pragma once
 
 #include <cstdint>

@@ -18,8 +18,8 @@ class RasBits final : public BlockAnalysis {
       streams_[ycocg].beside_groups = ras_bits_beside_groups(format, ycocg);
   }
 
-  /// Subscribes to the stream of the RGBA or the YCoCg-R planes. The number referred to is that of the block
-  /// at hand, not rounded.
+  /// Subscribes to the stream of the RGBA or the YCoCg-R planes. The number referred to is the
+  /// stream's bits of the block at hand, before padding to a size class.
   const uint32_t& subscribe(bool ycocg) {
     streams_[ycocg].wanted = true;
     return streams_[ycocg].bits;

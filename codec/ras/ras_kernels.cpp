@@ -1,4 +1,4 @@
-// RAS kernels, plainly: the rules of prediction and codes (spec §6).
+// RAS kernels, plainly: the rules of prediction and codes.
 #include "ras/ras_kernels.h"
 
 #include <algorithm>

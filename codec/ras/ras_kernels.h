@@ -15,11 +15,11 @@ struct RasKernels {
   /// pixels.
   uint32_t (*code_bits)(const int16_t* samples);
 
-  /// Returns the codes themselves.
+  /// Fills `groups` with residuals, k, lengths and codes.
   void (*groups)(const int16_t* samples, RasGroups& groups);
 
   /// Turns residuals into samples: adds to each what its neighbours predict. Pixel (x, y) is at 32 * y + 4 *
-  /// x. If no encoder makes these residuals, the first sample out of its range is right.
+  /// x. Residuals that no encoder makes: all samples up to the first out of its range are exact.
   void (*restore)(int16_t* samples);
 
   /// Joins samples of four 8-bit channels, as restore leaves them, to pixels. Returns false if one does not

@@ -1,4 +1,4 @@
-// RAS stream: median-edge prediction and Golomb-Rice codes per colour plane (spec §6).
+// RAS stream: median-edge prediction and Golomb-Rice codes per colour plane.
 //
 //   per plane                    first pixel, raw (plane bits wide)
 //   per plane, per 2×2 group     3 bits k; k = 7: all residuals zero, nothing follows; else per residual

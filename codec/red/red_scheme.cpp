@@ -1,5 +1,4 @@
-// RED: uniform 4×2 or 2×2 regions, chosen for the whole block (paper §Surface compression techniques; spec
-// §5).
+// RED: uniform 4×2 or 2×2 regions, chosen for the whole block (paper §Surface compression techniques).
 //
 //   CSB       2 bits: 0 = eight 4×2 regions, 1 = sixteen 2×2 regions, 2 = raw
 //   payload   one colour per region, regions in raster order; or 64 raw pixels

@@ -1,4 +1,4 @@
-// Frame metrics: figures from the colour counts of a frame and the frame before (spec §8).
+// Frame metrics: figures from the colour counts of a frame and the frame before.
 #pragma once
 
 #include <array>

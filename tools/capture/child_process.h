@@ -32,7 +32,7 @@ struct ChildEnd {
 Result<ChildEnd> run_child(const std::vector<std::string>& argv,
                            const std::map<std::string, std::string>& environment, double limit_s = 0);
 
-/// The exit status for an error of run_child() or find_program() (spec §12): 127, 126 or 125.
+/// The exit status for an error of run_child() or find_program(): 127, 126 or 125.
 int start_status(const Error& error);
 
 }  // namespace tilepress

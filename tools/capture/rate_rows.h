@@ -30,7 +30,7 @@ std::vector<RateRow> rate_rows(const std::vector<std::unique_ptr<TraceReplay>>& 
 /// The rows of a run that is finished already.
 std::vector<RateRow> rate_rows(const RunRecord& run, const std::string& name, const std::string& category);
 
-/// Mean of one scheme over the traces of one category (spec §7): harmonic, each trace counting the same.
+/// Mean of one scheme over the traces of one category: harmonic, each trace counting the same.
 struct CategoryMean {
   std::string category;  ///< empty: over all traces
   std::string scheme;

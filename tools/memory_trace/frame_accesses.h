@@ -1,4 +1,4 @@
-// Frame accesses: what writing a frame to memory and showing it once touches, in order (spec §16).
+// Frame accesses: what writing a frame to memory and showing it once touches, in order.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Memory map: where the surfaces of a memory trace lie (spec §16).
+// Memory map: where the surfaces of a memory trace lie.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Memory trace: the requests of one scheme, in a simulator's format (spec §16).
+// Memory trace: the requests of one scheme, in a simulator's format.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Trace options: what a memory trace holds and how it is written (spec §16).
+// Trace options: what a memory trace holds and how it is written.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -61,7 +61,7 @@ Result<void> ask_for_trace(MemoryTraceOptions& options, RunOptions& run);
 /// Writes an error about the options, and returns the exit status: usage for kBadValue, `failed` for any other.
 int fail_trace(const Error& error, int failed = kExitFailed);
 
-/// Refuses schemes whose further traffic one pass over the blocks does not show (spec §16: te, fbc). Error:
+/// Refuses schemes whose further traffic one pass over the blocks does not show: te, fbc. Error:
 /// kBadValue.
 Result<void> check_traced_scheme(const std::string& scheme_name);
 

@@ -7,7 +7,7 @@
 
 namespace tilepress {
 
-/// One mean of the paper (spec §11).
+/// One mean of the paper.
 struct PublishedMean {
   std::string_view category;  ///< "UI", "2D" or "3D"
   std::string_view scheme;

@@ -1,4 +1,4 @@
-// Algorithm 1: predicts the CCD size that moves the fewest bits (paper §Adaptive DCP; spec §5).
+// Algorithm 1: predicts the CCD size that moves the fewest bits (paper §Adaptive DCP).
 #pragma once
 
 #include <algorithm>

@@ -19,7 +19,7 @@ struct Block {
   bool operator==(const Block&) const = default;
 };
 
-/// Returns the raster position of each pixel in traversal order (spec §2): 2×2 sub-blocks in raster order,
+/// Returns the raster position of each pixel in traversal order: 2×2 sub-blocks in raster order,
 /// and the pixels of a sub-block in raster order. Sub-block s has traversal positions 4s … 4s+3.
 constexpr std::array<uint8_t, kBlockPixels> make_traversal() {
   std::array<uint8_t, kBlockPixels> order{};

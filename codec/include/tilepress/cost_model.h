@@ -1,4 +1,4 @@
-// Cost model: energy, power, storage, area and speed of the DCP structures (spec §9; paper §Implementation
+// Cost model: energy, power, storage, area and speed of the DCP structures (paper §Implementation
 // Cost and Energy Savings).
 #pragma once
 

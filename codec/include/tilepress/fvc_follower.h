@@ -27,7 +27,7 @@ struct FvcState {
 };
 
 /// Follows one surface beside a SurfaceEngine. The engine uses faster forms of the FVC with the same results;
-/// this class uses the definition (spec §3, §4). Slow: for the frames that a test of hardware needs.
+/// this class uses the definition. Slow: for the frames that a test of hardware needs.
 class FvcFollower {
  public:
   /// Returns nothing if the scheme has no FVC.

@@ -10,7 +10,7 @@
 namespace tilepress {
 
 /// A frame in the form that schemes work on: pixel words with alpha 255 where the format has none, padded to
-/// a multiple of 8 in both directions by the nearest pixel inside the surface (spec §2). Frames of one size
+/// a multiple of 8 in both directions by the nearest pixel inside the surface. Frames of one size
 /// re-use the memory.
 class PixelPlane {
  public:

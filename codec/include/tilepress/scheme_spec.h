@@ -1,5 +1,5 @@
 // Scheme specifications: `name:key=value,key=value`, parsed and checked against the scheme's key table. A
-// value may be a list in braces, which stands for several specifications (spec §13).
+// value may be a list in braces, which stands for several specifications.
 #pragma once
 
 #include <cstdint>
@@ -49,7 +49,7 @@ constexpr size_t kMostSchemes = 256;
 /// equal names appear once. Error: kBadValue, also for more than kMostSchemes.
 Result<std::vector<SchemeSpec>> parse_schemes(std::string_view text);
 
-/// The seven schemes of the paper, in the order of spec §12.
+/// The seven schemes of the paper, in the order in which it describes them.
 std::vector<SchemeSpec> default_schemes();
 
 }  // namespace tilepress

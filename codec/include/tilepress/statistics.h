@@ -10,7 +10,7 @@
 
 namespace tilepress {
 
-/// Metrics of the frame itself (spec §8), over the pixels inside the surface.
+/// Metrics of the frame itself, over the pixels inside the surface.
 struct FrameMetrics {
   uint64_t unique_colors = 0;
   double entropy = 0;                ///< bits per pixel of the colour histogram
@@ -21,13 +21,13 @@ struct FrameMetrics {
   double top100_coverage = 0;        ///< 0..1
 };
 
-/// How well an FVC knows the frame that it collected (spec §3).
+/// How well an FVC knows the frame that it collected.
 struct FvcFigures {
   double coverage = 0;           ///< 0..1: counts it holds / pixels that entered
   double relative_coverage = 0;  ///< 0..1: pixels of its colours / pixels of as many most frequent colours
 };
 
-/// Wires of the memory bus that change while the frame is written (spec §17).
+/// Wires of the memory bus that change while the frame is written.
 struct ToggleCounts {
   uint64_t plain = 0, inverted = 0;          ///< of the scheme; inverted: with data bus inversion
   uint64_t raw_plain = 0, raw_inverted = 0;  ///< of the frame without compression
@@ -36,7 +36,7 @@ struct ToggleCounts {
 constexpr size_t kOwnCounts = 4;
 using OwnCounts = std::array<uint64_t, kOwnCounts>;
 
-/// The figures of one scheme for one frame, or summed over frames (spec §7). All sizes are in bits.
+/// The figures of one scheme for one frame, or summed over frames. All sizes are in bits.
 struct SchemeStatistics {
   uint64_t blocks = 0;
   uint64_t raw_bits = 0;

@@ -1,4 +1,4 @@
-// Statistics rows: frames.csv and schemes.csv, a row per frame and a row per scheme of a frame (spec §10).
+// Statistics rows: frames.csv and schemes.csv, a row per frame and a row per scheme of a frame.
 #pragma once
 
 #include <cstdint>

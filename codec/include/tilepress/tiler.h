@@ -1,4 +1,4 @@
-// Tiler: the order in which a tile-based GPU commits the blocks of a surface (spec §2).
+// Tiler: the order in which a tile-based GPU commits the blocks of a surface.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Block log: the payload bits of every block of a run, of one scheme. A memory trace is made of it (spec §16).
+// Block log: the payload bits of every block of a run, of one scheme. A memory trace is made of it.
 #pragma once
 
 #include <cstdint>

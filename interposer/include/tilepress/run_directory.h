@@ -1,4 +1,4 @@
-// Run directory: frames.csv, schemes.csv and run.json of one run (spec §10). A kill loses no finished frame.
+// Run directory: frames.csv, schemes.csv and run.json of one run. A kill loses no finished frame.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Memory traces: addresses, orders and times of requests, against numbers derived by hand (spec §16).
+// Memory traces: addresses, orders and times of requests, against numbers derived by hand.
 #include <gtest/gtest.h>
 
 #include <cstring>
