@@ -15,6 +15,7 @@ cmake --build "$work/build" -j2 >/dev/null
 cmake --install "$work/build" --prefix "$work/prefix" >/dev/null
 mv "$work/prefix" "$work/a place/moved"
 prefix="$work/a place/moved"
+example=$prefix/share/doc/libtilepress-dev/examples/plugin
 
 echo "== find_package"
 cmake -S "$tests/package" -B "$work/user" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
@@ -43,11 +44,11 @@ mkdir "$work/user/later"
 cp "$library" "$work/user/later/libtilepress.so.0.9.0"
 ln -s libtilepress.so.0.9.0 "$work/user/later/libtilepress.so.0"
 eval "flags=($(PKG_CONFIG_PATH="$prefix/lib/pkgconfig" pkg-config --cflags --libs tilepress))"
-"$c_compiler" -std=c11 "$tests/package/c_user.c" "$tests/plugin/rowpal_plugin.c" "${flags[@]}" -o "$work/user/c-by-pkg-config"
+"$c_compiler" -std=c11 "$tests/package/c_user.c" "$example/rowpal_plugin.c" "${flags[@]}" -o "$work/user/c-by-pkg-config"
 LD_LIBRARY_PATH="$work/user/later" use_c "$work/user/c-by-pkg-config"
 
 echo "== a plugin"
-cmake -S "$tests/plugin" -B "$work/plugin" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+cmake -S "$example" -B "$work/plugin" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
 cmake --build "$work/plugin" >/dev/null
 
 echo "== pkg-config"
