@@ -10,4 +10,4 @@ for file in __init__.py py.typed _native.pyi; do
   [ -f "$package/tilepress/$file" ] || { echo "not installed: $package/tilepress/$file"; exit 1; }
 done
 cd "$source/tests/tools/python"
-PYTHONPATH=$package PYTHONDONTWRITEBYTECODE=1 exec "$python" -m pytest -q -p no:cacheprovider -W error::pytest.PytestWarning .
+TILEPRESS_TEST_PLUGIN=$2/plugin/librowpal.so PYTHONPATH=$package PYTHONDONTWRITEBYTECODE=1 exec "$python" -m pytest -q -p no:cacheprovider -W error::pytest.PytestWarning .

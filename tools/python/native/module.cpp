@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "python_values.h"
+#include "tilepress/plugin_scheme.h"
 
 namespace tilepress::python {
 namespace {
@@ -13,12 +14,18 @@ const char* name_of(ErrorKind kind) {
   return kNames[static_cast<size_t>(kind)];
 }
 
+void set_error(const Error& error) {
+  const py::object type = py::module_::import("tilepress._errors").attr("Error");
+  PyErr_SetObject(type.ptr(), type(error.text, name_of(error.kind)).ptr());
+}
+
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const LibraryError& e) {
-    const py::object type = py::module_::import("tilepress._errors").attr("Error");
-    PyErr_SetObject(type.ptr(), type(e.error.text, name_of(e.error.kind)).ptr());
+    set_error(e.error);
+  } catch (const PluginFault& fault) {
+    set_error({ErrorKind::kSystem, fault.what()});
   }
 }
 

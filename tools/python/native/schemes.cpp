@@ -1,8 +1,11 @@
 // Schemes: the registry for Python, and what a scheme in Python writes with.
 #include <pybind11/stl.h>
 
+#include <filesystem>
+
 #include "bit_string.h"
 #include "python_scheme.h"
+#include "tilepress/plugin_library.h"
 
 namespace tilepress::python {
 namespace {
@@ -92,12 +95,20 @@ py::array get_words(BitSource& source, py::ssize_t length, uint32_t bits) {
   return words;
 }
 
+/// The names of the schemes that a library brings.
+std::vector<std::string> schemes_of_plugin(const std::string& path) {
+  if (const auto loaded = load_plugin(path); !loaded) throw LibraryError(about(path, loaded.error()));
+  const std::string whole = std::filesystem::absolute(path).lexically_normal().string();
+  return std::ranges::find(loaded_plugins(), whole, &PluginLibrary::path)->schemes;
+}
+
 }  // namespace
 
 void bind_schemes(py::module_& module) {
   module.def("schemes", &registry);
   module.def("register_class", &register_class);
   module.def("python_class", &python_class);
+  module.def("load_plugin", &schemes_of_plugin);
   module.def("parse_schemes", [](const std::string& text) {
     std::vector<std::string> texts;
     for (const SchemeSpec& spec : value_of(parse_schemes(text))) texts.push_back(spec.text);

@@ -22,13 +22,13 @@ from ._engine import CompressedSurface, Engine, Compression, compress
 from ._errors import Error
 from ._native import BitReader, BitWriter, version as __version__
 from ._runs import Run, Study, read_heat_map, read_run, read_runs, read_study
-from ._schemes import Key, Scheme, SchemeInfo, SchemeKey, parse_schemes, register_scheme, schemes
+from ._schemes import Key, Scheme, SchemeInfo, SchemeKey, load_plugin, parse_schemes, register_scheme, schemes
 from ._statistics import FrameMetrics, FrameStatistics, SchemeStatistics
 from ._structures import Algorithm1, Ccd, CcdSizeRound, Fvc, color_counts, color_text, energy_saving
 
 __all__ = [
     "Algorithm1", "BitReader", "BitWriter", "Ccd", "CcdSizeRound", "CompressedSurface", "Compression", "Engine", "Error",
     "FrameMetrics", "FrameStatistics", "Fvc", "Key", "Run", "Scheme", "SchemeInfo", "SchemeKey", "SchemeStatistics",
-    "Study", "color_counts", "color_text", "compress", "energy_saving", "parse_schemes", "read_heat_map", "read_run",
-    "read_runs", "read_study", "register_scheme", "schemes", "__version__",
+    "Study", "color_counts", "color_text", "compress", "energy_saving", "load_plugin", "parse_schemes", "read_heat_map",
+    "read_run", "read_runs", "read_study", "register_scheme", "schemes", "__version__",
 ]

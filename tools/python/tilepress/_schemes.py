@@ -1,6 +1,7 @@
 """Schemes: the registry, and schemes written in Python."""
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -45,6 +46,12 @@ def schemes() -> list[SchemeInfo]:
 def parse_schemes(text: str) -> list[str]:
     """Returns the specifications that a text with lists stands for: "vdcp:fvc={16,32}" → two. Raises Error."""
     return _native.parse_schemes(text)
+
+
+def load_plugin(path: str | os.PathLike[str]) -> list[str]:
+    """Loads a plugin for good and returns the names of its schemes, which work like any other from then on. Loading it
+    again is no error. Raises Error if the library is no plugin, or if one of its schemes is refused."""
+    return _native.load_plugin(os.fspath(path))
 
 
 @dataclass(frozen=True)
