@@ -11,17 +11,6 @@
 namespace tilepress {
 namespace {
 
-/// Calls visit(bx, by) for each block in traversal order.
-template <class Visit>
-void for_each_block(uint32_t blocks_x, uint32_t blocks_y, uint32_t tile_side, const Visit& visit) {
-  const uint32_t step = tile_side / kBlockSide;
-  for (uint32_t row = 0; row < blocks_y; row += step)
-    for_each_row_in_tiles(blocks_x, row, std::min(row + step, blocks_y), tile_side,
-                          [&](uint32_t bx, uint32_t bx_end, uint32_t by) {
-                            for (; bx < bx_end; ++bx) visit(bx, by);
-                          });
-}
-
 /// Sends the bytes, and zeros up to whole bursts.
 void send_padded(std::span<const uint8_t> bytes, size_t burst_bytes, MemoryBus& bus) {
   const size_t whole = bytes.size() / burst_bytes * burst_bytes;
@@ -56,11 +45,12 @@ void MemoryBus::send(std::span<const uint8_t> bytes) {
 void send_surface(const CompressedSurface& surface, MemoryBus& bus) {
   const size_t burst_bytes = surface.burst_bits / 8;
   const std::span<const uint8_t> payload = surface.payload;
-  for_each_block(surface.blocks_x(), surface.blocks_y(), surface.tile_side, [&](uint32_t bx, uint32_t by) {
-    const uint64_t number = uint64_t{by} * surface.blocks_x() + bx;
-    const size_t bursts = (surface.block_bits[number] + surface.burst_bits - 1) / surface.burst_bits;
-    bus.send(payload.subspan(number * surface.slot_bytes(), bursts * burst_bytes));
-  });
+  for_each_block_in_tiles(
+      surface.blocks_x(), surface.blocks_y(), surface.tile_side, [&](uint32_t bx, uint32_t by) {
+        const uint64_t number = uint64_t{by} * surface.blocks_x() + bx;
+        const size_t bursts = (surface.block_bits[number] + surface.burst_bits - 1) / surface.burst_bits;
+        bus.send(payload.subspan(number * surface.slot_bytes(), bursts * burst_bytes));
+      });
   send_padded(surface.csb, burst_bytes, bus);
   send_padded(surface.tables, burst_bytes, bus);
 }
@@ -68,7 +58,7 @@ void send_surface(const CompressedSurface& surface, MemoryBus& bus) {
 void send_raw(const PixelPlane& plane, uint32_t tile_side, uint32_t burst_bits, MemoryBus& bus) {
   const uint32_t pixel_bytes = traits(plane.format()).pixel_bits / 8;
   std::array<uint8_t, kMaxRawBlockBits / 8> bytes;
-  for_each_block(plane.blocks_x(), plane.blocks_y(), tile_side, [&](uint32_t bx, uint32_t by) {
+  for_each_block_in_tiles(plane.blocks_x(), plane.blocks_y(), tile_side, [&](uint32_t bx, uint32_t by) {
     Block block;
     plane.load_block(bx, by, block);
     size_t at = 0;

@@ -17,12 +17,8 @@ namespace {
 
 std::vector<std::pair<uint32_t, uint32_t>> visited(uint32_t blocks_x, uint32_t blocks_y, uint32_t tile_side) {
   std::vector<std::pair<uint32_t, uint32_t>> order;
-  const uint32_t step = tile_side / kBlockSide;
-  for (uint32_t row = 0; row < blocks_y; row += step)
-    for_each_row_in_tiles(blocks_x, row, std::min(row + step, blocks_y), tile_side,
-                          [&](uint32_t bx, uint32_t bx_end, uint32_t by) {
-                            for (; bx < bx_end; ++bx) order.emplace_back(bx, by);
-                          });
+  for_each_block_in_tiles(blocks_x, blocks_y, tile_side,
+                          [&](uint32_t bx, uint32_t by) { order.emplace_back(bx, by); });
   return order;
 }
 

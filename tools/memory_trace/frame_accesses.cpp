@@ -43,13 +43,9 @@ class Accesses {
 
 std::vector<MemoryFetch> frame_writes(const CompressedSurface& frame, TracedForm form) {
   Accesses out(frame, form);
-  const uint32_t blocks_x = frame.blocks_x(), blocks_y = frame.blocks_y();
-  const uint32_t step = frame.tile_side / kBlockSide;
-  for (uint32_t row = 0; row < blocks_y; row += step)
-    for_each_row_in_tiles(blocks_x, row, std::min(row + step, blocks_y), frame.tile_side,
-                          [&](uint32_t bx, uint32_t bx_end, uint32_t by) {
-                            for (; bx < bx_end; ++bx) out.block(uint64_t{by} * blocks_x + bx);
-                          });
+  const uint32_t blocks_x = frame.blocks_x();
+  for_each_block_in_tiles(blocks_x, frame.blocks_y(), frame.tile_side,
+                          [&](uint32_t bx, uint32_t by) { out.block(uint64_t{by} * blocks_x + bx); });
   out.csb(0, out.csb_bursts_before(frame.blocks()));
   out.tables();
   return out.take();

@@ -173,20 +173,16 @@ FvcPair VectorFrames::pass_blocks(BlockFiles* files) {
   const auto note = [&](FvcState& state) {
     if (follower_) state = follower_->state();
   };
-  const auto visit = [&](uint32_t bx, uint32_t bx_end, uint32_t by) {
-    for (; bx < bx_end; ++bx, ++at) {
-      if (at == window_.first) note(states.before_blocks);
-      scan_block(plane_, bx, by, block);
-      if (follower_) follower_->see(block.seen.data(), block.seen_count);
-      if (files != nullptr && window_.contains(at)) files->add(surface_, bx, by, block);
-      if (window_.contains(at) && (at + 1 == plane_.blocks() || !window_.contains(at + 1)))
-        note(states.after_blocks);
-    }
+  const auto visit = [&](uint32_t bx, uint32_t by) {
+    if (at == window_.first) note(states.before_blocks);
+    scan_block(plane_, bx, by, block);
+    if (follower_) follower_->see(block.seen.data(), block.seen_count);
+    if (files != nullptr && window_.contains(at)) files->add(surface_, bx, by, block);
+    if (window_.contains(at) && (at + 1 == plane_.blocks() || !window_.contains(at + 1)))
+      note(states.after_blocks);
+    ++at;
   };
-  const uint32_t step = model_.tile_side / kBlockSide;
-  for (uint32_t row = 0; row < plane_.blocks_y(); row += step)
-    for_each_row_in_tiles(plane_.blocks_x(), row, std::min(row + step, plane_.blocks_y()), model_.tile_side,
-                          visit);
+  for_each_block_in_tiles(plane_.blocks_x(), plane_.blocks_y(), model_.tile_side, visit);
   return states;
 }
 

@@ -19,4 +19,15 @@ void for_each_row_in_tiles(uint32_t blocks_x, uint32_t begin, uint32_t end, uint
     for (uint32_t by = begin; by < end; ++by) visit(tx, std::min(tx + step, blocks_x), by);
 }
 
+/// Calls visit(bx, by) for each block of a surface in the order of commitment.
+template <typename Visit>
+void for_each_block_in_tiles(uint32_t blocks_x, uint32_t blocks_y, uint32_t tile_side, Visit&& visit) {
+  const uint32_t step = tile_side / kBlockSide;
+  for (uint32_t row = 0; row < blocks_y; row += step)
+    for_each_row_in_tiles(blocks_x, row, std::min(row + step, blocks_y), tile_side,
+                          [&](uint32_t bx, uint32_t bx_end, uint32_t by) {
+                            for (; bx < bx_end; ++bx) visit(bx, by);
+                          });
+}
+
 }  // namespace tilepress

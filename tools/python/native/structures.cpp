@@ -77,12 +77,8 @@ void PythonFvc::collect(const py::handle& frame) {
   PixelPlane plane;
   plane.assign(view);
   follower_->begin_frame(0);  // every period collects in frame 0
-  const uint32_t step = tile_side_ / kBlockSide, rows = plane.blocks_y();
-  for (uint32_t begin = 0; begin < rows; begin += step)
-    for_each_row_in_tiles(plane.blocks_x(), begin, std::min(begin + step, rows), tile_side_,
-                          [&](uint32_t bx, uint32_t bx_end, uint32_t by) {
-                            for (; bx < bx_end; ++bx) see(plane, bx, by);
-                          });
+  for_each_block_in_tiles(plane.blocks_x(), plane.blocks_y(), tile_side_,
+                          [&](uint32_t bx, uint32_t by) { see(plane, bx, by); });
   state_ = follower_->state();
   follower_->begin_frame(0);  // builds the CCD
   keep_ccd();
