@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <numeric>
 
@@ -23,13 +21,9 @@ constexpr size_t kStartUpFrames = 2;
 using Presents = std::vector<PresentTimeRow>;
 
 std::map<uint64_t, Presents> presents_by_window(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   std::map<uint64_t, Presents> windows;
-  CsvRecords records(text);
-  const CsvRowReader<PresentTimeRow> reader(records, present_time_columns());
-  while (records.next())
-    if (PresentTimeRow row; reader.read(row)) windows[row.window].push_back(row);
+  for_each_csv_row(path, present_time_columns(),
+                   [&](const PresentTimeRow& row) { windows[row.window].push_back(row); });
   return windows;
 }
 

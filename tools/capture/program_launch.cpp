@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "capture/shim_launch.h"
@@ -53,22 +51,17 @@ struct PresentCosts {
 
 PresentCosts present_costs(const RunRecord& run) {
   PresentCosts costs;
-  std::ifstream file(run.path + "/presents.csv");
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  CsvRecords records(text);
-  const CsvRowReader<PresentRow> reader(records, present_columns());
   constexpr std::pair<uint64_t PresentRow::*, double PresentCosts::*> kSums[] = {
       {&PresentRow::readback_ns, &PresentCosts::readback_ns},
       {&PresentRow::read_ns, &PresentCosts::read_ns},
       {&PresentRow::bind_ns, &PresentCosts::bind_ns},
       {&PresentRow::hand_off_ns, &PresentCosts::hand_off_ns},
       {&PresentRow::wait_ns, &PresentCosts::wait_ns}};
-  while (records.next()) {
-    PresentRow row;
-    if (!reader.read(row) || row.frame == 0) continue;  // frame 0 also pays for the start
+  for_each_csv_row(run.path + "/presents.csv", present_columns(), [&](const PresentRow& row) {
+    if (row.frame == 0) return;  // frame 0 also pays for the start
     ++costs.frames;
     for (const auto& [part, sum] : kSums) costs.*sum += static_cast<double>(row.*part);
-  }
+  });
   if (costs.frames == 0) return costs;
   for (const auto& [part, sum] : kSums) costs.*sum /= static_cast<double>(costs.frames);
   for (const FrameStatistics& frame : run.frames)

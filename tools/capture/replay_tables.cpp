@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "counted.h"
 #include "printable.h"
@@ -100,17 +98,13 @@ class FolderLock {
 /// The rows of replay.csv, without those of `traces` and of runs that have been removed. A file that cannot be
 /// read has none.
 std::vector<RateRow> rows_of_others(const std::string& folder, const std::vector<RateRow>& own) {
-  std::ifstream file(folder + "/replay.csv", std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  CsvRecords records(text);
-  const CsvRowReader<RateRow> reader(records, rate_columns());
   std::vector<RateRow> rows;
-  while (records.next()) {
-    RateRow row;
-    if (!reader.read(row) || std::ranges::count(own, row.trace, &RateRow::trace) > 0) continue;
+  for_each_csv_row(folder + "/replay.csv", rate_columns(), [&](const RateRow& row) {
     std::error_code code;
-    if (row.scheme.empty() || std::filesystem::exists(folder + "/" + row.trace, code)) rows.push_back(std::move(row));
-  }
+    if (std::ranges::count(own, row.trace, &RateRow::trace) == 0 &&
+        (row.scheme.empty() || std::filesystem::exists(folder + "/" + row.trace, code)))
+      rows.push_back(row);
+  });
   return rows;
 }
 

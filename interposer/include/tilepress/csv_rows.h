@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -79,5 +81,17 @@ class CsvRowReader {
   const CsvRecords& records_;
   std::vector<Placed> columns_;
 };
+
+/// Calls visit(row) for each record of a file that can be read as a row. A missing file has none. Text in
+/// `row` lives as long as the call.
+template <class Row, class Visit>
+void for_each_csv_row(const std::string& path, std::span<const CsvColumn<Row>> columns, const Visit& visit) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  CsvRecords records(text);
+  const CsvRowReader<Row> reader(records, columns);
+  while (records.next())
+    if (Row row; reader.read(row)) visit(row);
+}
 
 }  // namespace tilepress
