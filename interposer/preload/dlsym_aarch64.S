@@ -1,13 +1,13 @@
 // Trampolines (AArch64): like those for x86-64. x16 carries the jump, so that the real function's "bti c" accepts it.
+#include "landing_pad.h"
 #if defined(__aarch64__)
-  .text
   .macro trampoline function, filter, caller_register
   .globl \function
   .type \function, %function
   .p2align 4
 \function:
   .cfi_startproc
-  hint #34                    // bti c
+  LANDING_PAD
   stp x29, x30, [sp, #-48]!
   .cfi_adjust_cfa_offset 48
   .cfi_rel_offset x29, 0
@@ -36,11 +36,4 @@
 
   trampoline dlsym, tp_filter_dlsym, x2
   trampoline dlvsym, tp_filter_dlvsym, x3
-
-  .section .note.gnu.property, "a"
-  .p2align 3
-  .long 4, 16, 5
-  .asciz "GNU"
-  .long 0xc0000000, 4, 1, 0   // GNU_PROPERTY_AARCH64_FEATURE_1_BTI
 #endif
-  .section .note.GNU-stack, "", %progbits

@@ -1,21 +1,14 @@
 // Trampolines (x86-64): dlsym and dlvsym call the filter, then jump to the real function with the caller's stack and
 // return address. The real functions identify their caller by the return address (RTLD_NEXT).
+#include "landing_pad.h"
 #if defined(__x86_64__)
-#if __has_include(<cet.h>)
-#include <cet.h>
-#endif
-#ifndef _CET_ENDBR
-#define _CET_ENDBR endbr64
-#endif
-
-  .text
   .macro trampoline function, filter, caller_register
   .globl \function
   .type \function, @function
   .p2align 4
 \function:
   .cfi_startproc
-  _CET_ENDBR
+  LANDING_PAD
   pushq %rdi
   .cfi_adjust_cfa_offset 8
   pushq %rsi
@@ -44,4 +37,3 @@
   trampoline dlsym, tp_filter_dlsym, %rdx
   trampoline dlvsym, tp_filter_dlvsym, %rcx
 #endif
-  .section .note.GNU-stack, "", %progbits

@@ -1,8 +1,8 @@
 // GL stubs (AArch64): like those for x86-64. x16 carries the jump, so that the real function's "bti c" accepts it.
+#include "landing_pad.h"
 #if defined(__aarch64__)
 #include "gl_slots.h"
 
-  .text
 // x17: number of the slot {real function, kind}.
   .globl tp_gl_enter
   .hidden tp_gl_enter
@@ -80,18 +80,11 @@ tp_gl_enter:
 tp_gl_pool:
   .set slot, TP_GL_NAMES
   .rept TP_GL_POOL
-  hint #34                    // bti c
+  LANDING_PAD
   mov w17, #slot
   b tp_gl_enter
   .p2align 4
   .set slot, slot + 1
   .endr
   .size tp_gl_pool, .-tp_gl_pool
-
-  .section .note.gnu.property, "a"
-  .p2align 3
-  .long 4, 16, 5
-  .asciz "GNU"
-  .long 0xc0000000, 4, 1, 0   // GNU_PROPERTY_AARCH64_FEATURE_1_BTI
 #endif
-  .section .note.GNU-stack, "", %progbits

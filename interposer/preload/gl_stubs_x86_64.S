@@ -1,15 +1,9 @@
 // GL stubs (x86-64): a stub stands in front of a watched GL function and needs no signature. It reports the call,
 // restores every argument register, and jumps to the real function with the caller's stack and return address.
+#include "landing_pad.h"
 #if defined(__x86_64__)
-#if __has_include(<cet.h>)
-#include <cet.h>
-#endif
-#ifndef _CET_ENDBR
-#define _CET_ENDBR endbr64
-#endif
 #include "gl_slots.h"
 
-  .text
 // r11: number of the slot {real function, kind}. An unwatched call costs a load, a test and two jumps.
   .globl tp_gl_enter
   .hidden tp_gl_enter
@@ -82,7 +76,7 @@ tp_gl_enter:
 tp_gl_pool:
   .set slot, TP_GL_NAMES
   .rept TP_GL_POOL
-  _CET_ENDBR
+  LANDING_PAD
   movl $slot, %r11d
   jmp tp_gl_enter
   .p2align 4
@@ -90,4 +84,3 @@ tp_gl_pool:
   .endr
   .size tp_gl_pool, .-tp_gl_pool
 #endif
-  .section .note.GNU-stack, "", %progbits

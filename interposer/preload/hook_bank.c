@@ -43,11 +43,12 @@ static void* on_get_proc_address(void* real, const char* name);
   static result name##_##slot parameters {                          \
     return hook(real_function(TP_ENTRY_##name, slot), __VA_ARGS__); \
   }
-#define TP_ENTRY(name, kind, result, hook, parameters, ...)                                  \
-  __attribute__((visibility("default"))) result name parameters;                             \
-  __attribute__((visibility("default"))) result name parameters {                            \
-    return hook(linked_function(TP_ENTRY_##name, __builtin_return_address(0)), __VA_ARGS__); \
-  }                                                                                          \
+#define TP_ENTRY(name, kind, result, hook, parameters, ...)                           \
+  __attribute__((visibility("default"))) result name parameters;                      \
+  __attribute__((visibility("default"))) result name parameters {                     \
+    void* const real = linked_function(TP_ENTRY_##name, __builtin_return_address(0)); \
+    return real != NULL ? hook(real, __VA_ARGS__) : (result)0;                        \
+  }                                                                                   \
   EACH_SLOT(HOOK, name, result, hook, parameters, __VA_ARGS__)
 #include "entry_points.def"
 
@@ -74,7 +75,6 @@ void* tp_bind(enum tp_entry entry, void* real) {
 }
 
 static void* on_get_proc_address(void* real, const char* name) {
-  if (real == NULL) return NULL;
   void* answer = ((void* (*)(const char*))real)(name);
   if (answer == NULL) return NULL;
   const int entry = tp_find_entry(name), gl = entry < 0 ? tp_find_gl(name) : -1;

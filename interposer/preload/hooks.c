@@ -18,7 +18,6 @@ static struct TilepressPresent egl_present(void* real, tp_display display, tp_eg
 
 tp_egl_boolean tp_on_egl_swap(void* real, tp_display display, tp_egl_surface surface) {
   struct TilepressPresent present = egl_present(real, display, surface);
-  if (real == NULL) return 0;
   const bool taken = tp_presenting(&present);
   const tp_egl_boolean result = ((tp_egl_boolean(*)(tp_display, tp_egl_surface))real)(display, surface);
   if (taken) tp_presented(&present, result != 0);
@@ -31,7 +30,6 @@ tp_egl_boolean tp_on_egl_swap_with_damage(void* real, tp_display display, tp_egl
   struct TilepressPresent present = egl_present(real, display, surface);
   present.damage = rectangles;
   present.damage_count = count;
-  if (real == NULL) return 0;
   const bool taken = tp_presenting(&present);
   const tp_egl_boolean result = ((function)real)(display, surface, rectangles, count);
   if (taken) tp_presented(&present, result != 0);
@@ -46,7 +44,6 @@ tp_egl_boolean tp_on_egl_post_sub_buffer(void* real, tp_display display, tp_egl_
   struct TilepressPresent present = egl_present(real, display, surface);
   present.damage = damage;
   present.damage_count = 1;
-  if (real == NULL) return 0;
   const bool taken = tp_presenting(&present);
   const tp_egl_boolean result = ((function)real)(display, surface, x, y, width, height);
   if (taken) tp_presented(&present, result != 0);
@@ -64,7 +61,6 @@ static struct TilepressPresent glx_present(void* real, tp_display display, tp_gl
 
 void tp_on_glx_swap(void* real, tp_display display, tp_glx_drawable drawable) {
   struct TilepressPresent present = glx_present(real, display, drawable);
-  if (real == NULL) return;
   const bool taken = tp_presenting(&present);
   ((void (*)(tp_display, tp_glx_drawable))real)(display, drawable);
   if (taken) tp_presented(&present, true);
@@ -74,7 +70,6 @@ int64_t tp_on_glx_swap_msc(void* real, tp_display display, tp_glx_drawable drawa
                            int64_t divisor, int64_t remainder) {
   typedef int64_t (*function)(tp_display, tp_glx_drawable, int64_t, int64_t, int64_t);
   struct TilepressPresent present = glx_present(real, display, drawable);
-  if (real == NULL) return -1;
   const bool taken = tp_presenting(&present);
   const int64_t result = ((function)real)(display, drawable, target_msc, divisor, remainder);
   if (taken) tp_presented(&present, result >= 0);
@@ -87,7 +82,6 @@ void tp_on_glx_copy_sub_buffer(void* real, tp_display display, tp_glx_drawable d
   struct TilepressPresent present = glx_present(real, display, drawable);
   present.damage = damage;
   present.damage_count = 1;
-  if (real == NULL) return;
   const bool taken = tp_presenting(&present);
   ((void (*)(tp_display, tp_glx_drawable, int, int, int, int))real)(display, drawable, x, y, width, height);
   if (taken) tp_presented(&present, true);
@@ -95,7 +89,6 @@ void tp_on_glx_copy_sub_buffer(void* real, tp_display display, tp_glx_drawable d
 
 int tp_on_glx_make_current(void* real, tp_display display, tp_glx_drawable drawable, tp_context context) {
   const uintptr_t arguments[] = {(uintptr_t)display, drawable, (uintptr_t)context};
-  if (real == NULL) return 0;
   tp_gl_making_current(TILEPRESS_GL_MAKE_CURRENT_3, arguments);
   const int result = ((int (*)(tp_display, tp_glx_drawable, tp_context))real)(display, drawable, context);
   if (result != 0) tp_made_current(drawable, drawable, (uintptr_t)context);
@@ -106,7 +99,6 @@ int tp_on_glx_make_context_current(void* real, tp_display display, tp_glx_drawab
                                    tp_context context) {
   typedef int (*function)(tp_display, tp_glx_drawable, tp_glx_drawable, tp_context);
   const uintptr_t arguments[] = {(uintptr_t)display, draw, read, (uintptr_t)context};
-  if (real == NULL) return 0;
   tp_gl_making_current(TILEPRESS_GL_MAKE_CURRENT, arguments);
   const int result = ((function)real)(display, draw, read, context);
   if (result != 0) tp_made_current(draw, read, (uintptr_t)context);
@@ -118,7 +110,6 @@ int tp_on_glx_make_context_current(void* real, tp_display display, tp_glx_drawab
 unsigned char tp_on_osmesa_make_current(void* real, tp_context context, void* buffer, unsigned type,
                                         int width, int height, void* caller) {
   typedef unsigned char (*function)(tp_context, void*, unsigned, int, int);
-  if (real == NULL) return 0;
   const unsigned char result = ((function)real)(context, buffer, type, width, height);
   const bool current = result != 0 && context != NULL;
   tp_gl_osmesa_current(current ? real : NULL,
@@ -127,7 +118,6 @@ unsigned char tp_on_osmesa_make_current(void* real, tp_context context, void* bu
 }
 
 void* tp_on_osmesa_get_proc_address(void* real, const char* name) {
-  if (real == NULL) return NULL;
   void* answer = ((void* (*)(const char*))real)(name);
   const int gl = tp_find_gl(name);
   if (answer != NULL && gl >= 0 && tp_is_ours(answer)) answer = tp_symbol_in_object_of(real, name);
@@ -135,7 +125,6 @@ void* tp_on_osmesa_get_proc_address(void* real, const char* name) {
 }
 
 void tp_on_osmesa_destroy_context(void* real, tp_context context) {
-  if (real == NULL) return;
   tp_contexts_going(TILEPRESS_OSMESA, NULL, context);
   ((void (*)(tp_context))real)(context);
 }
@@ -143,7 +132,6 @@ void tp_on_osmesa_destroy_context(void* real, tp_context context) {
 // Where GLFW uses EGL or GLX, its call ends in theirs, and the thread has no OSMesa context.
 void tp_on_glfw_swap(void* real, void* window) {
   struct TilepressPresent present = {.api = TILEPRESS_OSMESA, .real = tp_gl_osmesa()};
-  if (real == NULL) return;
   const bool taken = tp_presenting(&present);
   ((void (*)(void*))real)(window);
   if (taken) tp_presented(&present, true);
@@ -152,25 +140,21 @@ void tp_on_glfw_swap(void* real, void* window) {
 // The engine lets go of what it keeps before the real call, while the handles are still valid.
 
 tp_egl_boolean tp_on_egl_destroy_context(void* real, tp_display display, tp_context context) {
-  if (real == NULL) return 0;
   tp_contexts_going(TILEPRESS_EGL, display, context);
   return ((tp_egl_boolean(*)(tp_display, tp_context))real)(display, context);
 }
 
 tp_egl_boolean tp_on_egl_destroy_surface(void* real, tp_display display, tp_egl_surface surface) {
-  if (real == NULL) return 0;
   tp_surface_going(display, (uintptr_t)surface);
   return ((tp_egl_boolean(*)(tp_display, tp_egl_surface))real)(display, surface);
 }
 
 tp_egl_boolean tp_on_egl_terminate(void* real, tp_display display) {
-  if (real == NULL) return 0;
   tp_contexts_going(TILEPRESS_EGL, display, NULL);
   return ((tp_egl_boolean(*)(tp_display))real)(display);
 }
 
 void tp_on_glx_destroy_context(void* real, tp_display display, tp_context context) {
-  if (real == NULL) return;
   tp_contexts_going(TILEPRESS_GLX, display, context);
   tp_context_destroyed((uintptr_t)context);
   ((void (*)(tp_display, tp_context))real)(display, context);

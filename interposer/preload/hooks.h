@@ -1,4 +1,4 @@
-// Hooks: each forwards to the real function `real`, and returns 0, NULL or -1 if `real` is NULL.
+// Hooks: each forwards to the real function `real`.
 #pragma once
 
 #include <stdint.h>
