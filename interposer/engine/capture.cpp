@@ -21,35 +21,31 @@ Take take_of(const TilepressTicket& ticket) {
           ticket.begin_ns};
 }
 
-}  // namespace
-
-CaptureSettings CaptureSettings::from_environment() {
-  CaptureSettings settings;
-  const Result<void> read = tilepress::from_environment(settings.options);
-  settings.enabled = read && !settings.options.output.empty();
-  if (!read) settings.error = read.error().text;
-  const char* wish = std::getenv("TILEPRESS_CAPTURE");
-  settings.counting_only = wish != nullptr && std::strcmp(wish, "off") == 0;
-  return settings;
+bool is_off(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && std::strcmp(value, "off") == 0;
 }
+
+}  // namespace
 
 Capture::Capture(const TilepressHost& host)
     : pid_(getpid()),
-      settings_(CaptureSettings::from_environment()),
-      log_(settings_.options.log_file, settings_.options.log_level),
+      valid_(from_environment(options_)),
+      counting_only_(is_off("TILEPRESS_CAPTURE")),
+      log_(options_.log_file, options_.log_level),
       times_(pid_),
-      policy_(settings_.options.readback),
-      sources_(host, settings_.options.readback == Readback::kInContext, log_),
-      run_(settings_.options, pid_, log_),
-      taker_(settings_.options, registry_, policy_, run_.counts(), log_, now_ns()),
+      policy_(options_.readback),
+      sources_(host, options_.readback == Readback::kInContext, log_),
+      run_(options_, pid_, log_),
+      taker_(options_, registry_, policy_, run_.counts(), log_, now_ns()),
       targets_(registry_, sources_, run_, taker_, log_) {
   if (const char* target = std::getenv("TILEPRESS_SIMD")) force_simd_target(target);  // unknown: the best one
-  if (!settings_.error.empty()) log_.error(settings_.error);
+  if (!valid_) log_.error(valid_.error().text);
 }
 
 bool Capture::is_capturing() const {
   const CaptureWorker* worker = run_.worker_if_started();
-  return settings_.enabled && !settings_.counting_only && (worker == nullptr || worker->alive());
+  return valid_ && !options_.output.empty() && !counting_only_ && (worker == nullptr || worker->alive());
 }
 
 bool Capture::begin(TilepressPresent& present) {
@@ -67,7 +63,7 @@ bool Capture::take_present(TilepressPresent& present, uint64_t begin_ns) {
     return false;  // the window belongs to another API, whose own call comes next
   CaptureWorker* worker = run_.worker(present, *source);
   if (worker == nullptr) return false;
-  if (settings_.options.all_targets) {
+  if (options_.all_targets) {
     targets_.take_targets(present, *source);
     begin_ns = now_ns();
   }

@@ -18,15 +18,6 @@
 
 namespace tilepress {
 
-/// The settings in the environment.
-struct CaptureSettings {
-  RunOptions options;
-  bool enabled = false;        ///< the options are valid and have an output folder
-  bool counting_only = false;  ///< TILEPRESS_CAPTURE=off
-  std::string error;           ///< about a variable that is not valid; else empty
-  static CaptureSettings from_environment();
-};
-
 /// Belongs to one process id. A forked child makes its own and leaves the parent's alone, locks and all. The
 /// members of the same names in TilepressEngine have the contracts.
 class Capture {
@@ -48,7 +39,9 @@ class Capture {
   Take not_described(const TilepressPresent& present, const Error& reason);
 
   const int64_t pid_;
-  const CaptureSettings settings_;
+  RunOptions options_;        ///< those of the environment
+  const Result<void> valid_;  ///< the environment
+  const bool counting_only_;  ///< TILEPRESS_CAPTURE=off
   ShimLog log_;
   PresentTimes times_;
   SurfaceRegistry registry_;

@@ -25,22 +25,25 @@ Capture* capture_of_this_process() {
   return known;
 }
 
+/// Lets no exception out.
+template <typename Work>
+void guard(const Work& work) {
+  try {
+    work();
+  } catch (...) {
+  }
+}
+
 int begin(TilepressPresent* present) {
   if (inside_engine) return 0;
+  bool taken = false;
   inside_engine = true;
-  try {
-    inside_engine = capture_of_this_process()->begin(*present);
-  } catch (...) {
-    inside_engine = false;
-  }
-  return inside_engine ? 1 : 0;
+  guard([&] { taken = capture_of_this_process()->begin(*present); });
+  return inside_engine = taken;
 }
 
 void end(TilepressPresent* present, int presented) {
-  try {
-    capture_of_this_process()->end(*present, presented != 0);
-  } catch (...) {
-  }
+  guard([&] { capture_of_this_process()->end(*present, presented != 0); });
   inside_engine = false;
 }
 
@@ -55,10 +58,7 @@ template <typename Work>
 void run_inside(const Work& work) {
   if (inside_engine) return;
   inside_engine = true;
-  try {
-    work();
-  } catch (...) {
-  }
+  guard(work);
   inside_engine = false;
 }
 
@@ -74,17 +74,15 @@ void contexts_going(uint32_t api, void* display, void* context) {
 
 void surface_going(void* display, uintptr_t surface) {
   if (inside_engine) return;
-  try {
+  guard([&] {
     if (Capture* known = known_capture()) known->surface_going(display, surface);
-  } catch (...) {
-  }
+  });
 }
 
 void finish() {
-  try {
+  guard([] {
     if (Capture* known = known_capture()) known->finish();
-  } catch (...) {
-  }
+  });
 }
 
 constexpr TilepressEngine kEngine = {TILEPRESS_ENGINE_VERSION, begin,         end,   gl_call, drawn_mark,

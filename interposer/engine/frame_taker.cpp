@@ -8,19 +8,9 @@
 namespace tilepress {
 namespace {
 
-/// The count that a frame raises when it is not handed to the worker.
-RoleCounts::Count count_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kSkipped:
-      return &LiveCounts::skipped;
-    case Outcome::kDropped:
-      return &LiveCounts::dropped;
-    case Outcome::kUnsupported:
-      return &LiveCounts::unsupported;
-    default:
-      return &LiveCounts::not_captured;
-  }
-}
+/// The count that a frame raises when it is not handed to the worker, by its outcome less kSkipped.
+constexpr RoleCounts::Count kCounts[] = {&LiveCounts::skipped, &LiveCounts::dropped, &LiveCounts::unsupported,
+                                         &LiveCounts::not_captured};
 
 /// Names the image in a line of the log. A window needs no name beside its surface number.
 std::string subject_of(const Shot& shot) {
@@ -115,7 +105,7 @@ void FrameTaker::commit(const Take& take, CaptureWorker& worker) {
   if (take.outcome == Outcome::kTaken) {
     worker.queue().submit(take.frame);
   } else {
-    counts.raise(count_of(take.outcome));
+    counts.raise(kCounts[static_cast<uint32_t>(take.outcome) - static_cast<uint32_t>(Outcome::kSkipped)]);
     worker.queue().wake();
   }
   worker.presented();

@@ -2,8 +2,9 @@
 // medians, because single frames wait for other things too.
 #include "interposer/engine/read_policy.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 
 namespace tilepress {
 
@@ -63,17 +64,13 @@ bool ReadbackProbe::note(ReadWay way, uint64_t cost_ns, uint64_t buffered_cost_n
 
 std::string ReadbackProbe::text() const {
   const bool async = state_ == State::kChosenAsync || state_ == State::kTrial;
-  char line[160];
-  const auto ms = [](uint64_t ns) { return static_cast<double>(ns) / 1e6; };
+  const auto ms = [](const std::vector<uint64_t>& times) {
+    return fmt::format("{:.3f} ms", static_cast<double>(median(times)) / 1e6);
+  };
   if (buffered_ns_.empty()) return "pixel buffers cannot be used: synchronous reads";
-  if (trial_ns_.empty())
-    snprintf(line, sizeof line, "synchronous reads %.3f ms, into pixel buffers %.3f ms: %s",
-             ms(median(sync_ns_)), ms(median(buffered_ns_)), async ? "asynchronous" : "synchronous");
-  else
-    snprintf(line, sizeof line, "synchronous reads %.3f ms, into pixel buffers %.3f ms, on trial %.3f ms: %s",
-             ms(median(sync_ns_)), ms(median(buffered_ns_)), ms(median(trial_ns_)),
-             async ? "asynchronous" : "synchronous");
-  return line;
+  return "synchronous reads " + ms(sync_ns_) + ", into pixel buffers " + ms(buffered_ns_) +
+         (trial_ns_.empty() ? "" : ", on trial " + ms(trial_ns_)) +
+         (async ? ": asynchronous" : ": synchronous");
 }
 
 bool ReadPolicy::in_place(const ReadCase& read) const {

@@ -39,10 +39,9 @@ CaptureWorker* RunStart::worker(const TilepressPresent& present, const PresentSo
   info.program = program_name();
   info.pid = pid_;
   info.via = present.road == TILEPRESS_ROAD_GLVND ? "glvnd" : "preload";
-  const GlStrings strings = source.strings();
-  info.gl_vendor = strings.vendor;
-  info.gl_renderer = strings.renderer;
-  info.gl_version = strings.version;
+  info.gl_vendor = source.string(GL_VENDOR);
+  info.gl_renderer = source.string(GL_RENDERER);
+  info.gl_version = source.string(GL_VERSION);
   info.api = source.api();
   auto* made = new CaptureWorker(options_, info, counts_, log_);
   if (made->start()) return worker_ = made;

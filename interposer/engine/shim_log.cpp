@@ -36,11 +36,8 @@ class AppendingSink final : public spdlog::sinks::sink {
 };
 
 spdlog::level::level_enum level_of(std::string_view name) {
-  if (name == "off") return spdlog::level::off;
-  if (name == "error") return spdlog::level::err;
-  if (name == "info") return spdlog::level::info;
-  if (name == "debug" || name == "trace") return spdlog::level::debug;
-  return spdlog::level::warn;
+  const auto level = spdlog::level::from_str(std::string(name));
+  return level == spdlog::level::off && name != "off" ? spdlog::level::warn : level;
 }
 
 }  // namespace

@@ -9,23 +9,14 @@ static const char* swap_of(uint32_t api) {
   return api == TILEPRESS_EGL ? "eglSwapBuffers" : "glXSwapBuffers";
 }
 
-std::unique_ptr<PresentSource> SourceList::make(const TilepressPresent& present) {
-  const SourceSettings settings{host_, reader_, in_context_only_};
-  switch (present.api) {
-    case TILEPRESS_EGL:
-      return make_egl_source(settings, present);
-    case TILEPRESS_GLX:
-      return make_glx_source(settings, present);
-    default:
-      return make_osmesa_source(settings, present);
-  }
-}
-
 PresentSource* SourceList::of(const TilepressPresent& present) {
+  static constexpr decltype(&make_egl_source) kMake[] = {make_egl_source, make_glx_source,
+                                                         make_osmesa_source};
   const std::lock_guard lock(mutex_);
   for (const Known& known : known_)
     if (known.real == present.real) return known.source.get();
-  known_.push_back({present.real, present.api, make(present)});
+  const SourceSettings settings{host_, reader_, in_context_only_};
+  known_.push_back({present.real, present.api, kMake[present.api](settings, present)});
   PresentSource* made = known_.back().source.get();
   if (made == nullptr) log_.error("the GL library lacks functions to read frames back");
   return made;

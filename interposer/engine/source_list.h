@@ -34,7 +34,6 @@ class SourceList {
     uint32_t api;
     std::unique_ptr<PresentSource> source;  ///< null: frames cannot be read back
   };
-  std::unique_ptr<PresentSource> make(const TilepressPresent& present);
   void* public_function(uint32_t api);
 
   const TilepressHost host_;

@@ -97,6 +97,20 @@ struct CapturedFrame {
 
   /// Returns room for `bytes` bytes with undefined contents, or null without memory.
   std::byte* reserve(size_t bytes) { return pixels_.reserve(bytes); }
+  /// The same for the pixels of a surface as GL returns them, without gaps and the last row first. Sets
+  /// `view`.
+  std::byte* reserve(const SurfaceShape& shape, size_t pixel_bytes, ByteOrder order) {
+    const size_t pitch_bytes = shape.width * pixel_bytes;
+    std::byte* pixels = reserve(pitch_bytes * shape.height);
+    if (pixels == nullptr) return nullptr;
+    view = {pixels + pitch_bytes * (shape.height - 1),
+            -static_cast<ptrdiff_t>(pitch_bytes),
+            shape.width,
+            shape.height,
+            *shape.format,
+            order};
+    return pixels;
+  }
 
  private:
   PixelMemory pixels_;

@@ -18,24 +18,16 @@ static Transfer transfer_of(PixelFormat format, const GlFunctions& gl) {
   return tilepress::transfer_of(format, preferred_format, preferred_type);
 }
 
-bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
-                      const std::shared_ptr<PixelBuffers>& buffers, CapturedFrame& frame) {
-  const BackBuffer back_buffer(gl, shape);
-  if (!back_buffer.whole()) return false;
+static bool read_bound(const GlFunctions& gl, const SurfaceShape& shape,
+                       const std::shared_ptr<PixelBuffers>& buffers, CapturedFrame& frame) {
   frame.buffered_ns = 0;
   const Transfer transfer = transfer_of(*shape.format, gl);
-  const size_t pitch_bytes = size_t{shape.width} * transfer.pixel_bytes;
-  std::byte* pixels = frame.reserve(pitch_bytes * shape.height);
+  std::byte* pixels = frame.reserve(shape, transfer.pixel_bytes, transfer.order);
   if (pixels == nullptr) return false;
-  frame.view.top_row = pixels + pitch_bytes * (shape.height - 1);
-  frame.view.pitch_bytes = -static_cast<ptrdiff_t>(pitch_bytes);
-  frame.view.width = shape.width;
-  frame.view.height = shape.height;
-  frame.view.format = *shape.format;
-  frame.view.order = transfer.order;
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   const PixelBuffers::Area area{static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height),
-                                transfer.format, transfer.type, pitch_bytes * shape.height};
+                                transfer.format, transfer.type,
+                                size_t{shape.width} * shape.height * transfer.pixel_bytes};
   std::unique_ptr<LateRead> late;
   if (frame.way != ReadWay::kSync && buffers != nullptr && !buffers->refused())
     late = buffers->begin(area, frame.buffered_ns);
@@ -53,6 +45,11 @@ bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
   // The pixel buffer must hold the pixels that the call returned, or no pixel buffer is used.
   if (late == nullptr || !buffers->equals(*late, pixels)) frame.buffered_ns = 0;
   return !failed;
+}
+
+bool read_back_buffer(const GlFunctions& gl, const SurfaceShape& shape,
+                      const std::shared_ptr<PixelBuffers>& buffers, CapturedFrame& frame) {
+  return with_back_buffer(gl, shape, [&] { return read_bound(gl, shape, buffers, frame); });
 }
 
 }  // namespace tilepress

@@ -35,21 +35,14 @@ bool read_bound(const GlFunctions& gl, const ContextVersion& version, const Surf
                 CapturedFrame& frame) {
   const std::optional<Transfer> transfer = transfer_of(gl, version, *shape.format);
   if (!transfer) return false;
-  const size_t pitch_bytes = size_t{shape.width} * transfer->pixel_bytes;
-  std::byte* pixels = frame.reserve(pitch_bytes * shape.height);
+  std::byte* pixels = frame.reserve(shape, transfer->pixel_bytes, transfer->order);
   if (pixels == nullptr) return false;
-  if (frame.partial) std::memset(pixels, 0, pitch_bytes * shape.height);
+  if (frame.partial) std::memset(pixels, 0, size_t{shape.width} * shape.height * transfer->pixel_bytes);
   const uint64_t begin_ns = now_ns();
   gl.ReadPixels(0, 0, static_cast<GLsizei>(shape.width), static_cast<GLsizei>(shape.height), transfer->format,
                 transfer->type, pixels);
   frame.read_ns = now_ns() - begin_ns;
   frame.bind_ns = 0;
-  frame.view = {pixels + pitch_bytes * (shape.height - 1),
-                -static_cast<ptrdiff_t>(pitch_bytes),
-                shape.width,
-                shape.height,
-                *shape.format,
-                transfer->order};
   return true;
 }
 

@@ -83,24 +83,30 @@ NeutralReadState::NeutralReadState(const GlFunctions& gl, const ContextVersion& 
                                    GLenum buffer)
     : gl_(gl), version_(version), framebuffer_(framebuffer), buffer_(buffer) {
   const uint64_t rows = rows_of_current(gl, version);
+  bool compiling = false;  // a display list
   for (size_t i = 0; i < kReadStateCount && whole_; ++i) {
     const read_state& state = kReadStates[i];
     if ((rows >> i & 1) == 0) continue;
     Saved saved{&state, 0, 0};
     if (is_neutral(saved)) continue;
     if (state.kind == kReadDisplayList) {
-      compiling_ = true;
+      compiling = true;
       continue;
     }
-    whole_ = can_set(state);
-    if (!whole_) break;
-    saved_[saved_count_++] = saved;
-    set_neutral(state);
+    const GLint value = state.kind == kReadFramebuffer ? static_cast<GLint>(framebuffer)
+                        : state.kind == kReadBuffer    ? static_cast<GLint>(buffer)
+                                                       : state.neutral;
+    whole_ = (!compiling || state.kind == kReadPack || state.kind == kReadPackBuffer) &&
+             set(state, value, static_cast<GLfloat>(state.neutral), kIdentity);
+    if (whole_) saved_[saved_count_++] = saved;
   }
 }
 
 NeutralReadState::~NeutralReadState() {
-  while (saved_count_ > 0) put_back(saved_[--saved_count_]);
+  while (saved_count_ > 0) {
+    const Saved& saved = saved_[--saved_count_];
+    set(*saved.state, saved.value, saved.real, color_matrix_);
+  }
 }
 
 bool NeutralReadState::is_neutral(Saved& saved) {
@@ -128,57 +134,25 @@ bool NeutralReadState::is_neutral(Saved& saved) {
   }
 }
 
-bool NeutralReadState::can_set(const read_state& state) const {
-  if (compiling_ && state.kind != kReadPack && state.kind != kReadPackBuffer) return false;
-  switch (state.kind) {
-    case kReadCapability:
-      return gl_.Enable != nullptr && gl_.Disable != nullptr;
-    case kReadTransfer:
-      return gl_.PixelTransferi != nullptr;
-    case kReadTransferReal:
-      return gl_.GetFloatv != nullptr && gl_.PixelTransferf != nullptr;
-    case kReadColorMatrix:
-      return gl_.GetFloatv != nullptr && gl_.MatrixMode != nullptr && gl_.LoadMatrixf != nullptr;
-    case kReadClamp:
-      return gl_.ClampColor != nullptr;
-    case kReadPackBuffer:
-      return gl_.BindBuffer != nullptr;
-    case kReadBuffer:
-      return read_buffer_function() != nullptr;
-    default:
-      return true;
-  }
-}
-
-void NeutralReadState::set_neutral(const read_state& state) {
-  const GLint bound = static_cast<GLint>(framebuffer_), buffer = static_cast<GLint>(buffer_);
-  const GLint value = state.kind == kReadFramebuffer ? bound
-                      : state.kind == kReadBuffer    ? buffer
-                                                     : state.neutral;
-  if (!set(state, value, static_cast<GLfloat>(state.neutral), kIdentity)) whole_ = false;
-}
-
-void NeutralReadState::put_back(const Saved& saved) {
-  set(*saved.state, saved.value, saved.real, color_matrix_);
-}
-
 bool NeutralReadState::set(const read_state& state, GLint value, GLfloat real, const GLfloat* matrix) const {
+  const auto number = static_cast<GLuint>(value);
+  const auto call = [](auto function, auto... arguments) {
+    if (function != nullptr) function(arguments...);
+    return function != nullptr;
+  };
   switch (state.kind) {
     case kReadDisplayList:
       break;
     case kReadCapability:
-      (value != 0 ? gl_.Enable : gl_.Disable)(state.gl_name);
-      break;
+      return call(value != 0 ? gl_.Enable : gl_.Disable, state.gl_name);
     case kReadPack:
-      gl_.PixelStorei(state.gl_name, value);
-      break;
+      return call(gl_.PixelStorei, state.gl_name, value);
     case kReadTransfer:
-      gl_.PixelTransferi(state.gl_name, value);
-      break;
+      return call(gl_.PixelTransferi, state.gl_name, value);
     case kReadTransferReal:
-      gl_.PixelTransferf(state.gl_name, real);
-      break;
+      return gl_.GetFloatv != nullptr && call(gl_.PixelTransferf, state.gl_name, real);
     case kReadColorMatrix: {
+      if (gl_.GetFloatv == nullptr || gl_.MatrixMode == nullptr || gl_.LoadMatrixf == nullptr) return false;
       GLint mode = GL_MODELVIEW;
       gl_.GetIntegerv(GL_MATRIX_MODE, &mode);
       gl_.MatrixMode(GL_COLOR);
@@ -187,22 +161,15 @@ bool NeutralReadState::set(const read_state& state, GLint value, GLfloat real, c
       break;
     }
     case kReadClamp:
-      gl_.ClampColor(state.gl_name, static_cast<GLenum>(value));
-      break;
+      return call(gl_.ClampColor, state.gl_name, number);
     case kReadPackBuffer:
-      gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(value));
-      break;
+      return call(gl_.BindBuffer, GL_PIXEL_PACK_BUFFER, number);
     case kReadFramebuffer:
-      return bind_framebuffer(gl_, version_, FramebufferUse::kRead, static_cast<GLuint>(value));
+      return bind_framebuffer(gl_, version_, FramebufferUse::kRead, number);
     case kReadBuffer:
-      read_buffer_function()(static_cast<GLenum>(value));
-      break;
+      return call(version_.embedded && version_.number < 30 ? gl_.ReadBufferNV : gl_.ReadBuffer, number);
   }
   return true;
-}
-
-void (*NeutralReadState::read_buffer_function() const)(GLenum) {
-  return version_.embedded && version_.number < 30 ? gl_.ReadBufferNV : gl_.ReadBuffer;
 }
 
 }  // namespace tilepress

@@ -32,17 +32,14 @@ class NeutralReadState {
   };
   /// Fills in the program's value.
   bool is_neutral(Saved& saved);
-  bool can_set(const read_state& state) const;
-  void set_neutral(const read_state& state);
-  void put_back(const Saved& saved);
+  /// Returns false if a function is missing.
   bool set(const read_state& state, GLint value, GLfloat real, const GLfloat* matrix) const;
-  void (*read_buffer_function() const)(GLenum);
 
   const GlFunctions& gl_;
   const ContextVersion version_;
   const GLuint framebuffer_;
   const GLenum buffer_;
-  bool whole_ = true, compiling_ = false;
+  bool whole_ = true;
   size_t saved_count_ = 0;
   std::array<Saved, kReadStateCount> saved_;
   GLfloat color_matrix_[16] = {};

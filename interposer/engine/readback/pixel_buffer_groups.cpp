@@ -1,7 +1,6 @@
 // Pixel buffer groups: a group without a twin serves only a probe.
 #include "interposer/engine/readback/pixel_buffer_groups.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace tilepress {
@@ -9,7 +8,10 @@ namespace tilepress {
 std::shared_ptr<PixelBuffers> PixelBufferGroups::of_context(const void* own, ReadWay way,
                                                             const GlFunctions& gl, const void* display,
                                                             LateReader& reader, const MakeTwin& make_twin) {
-  std::shared_ptr<PixelBuffers> buffers = find(own);
+  std::unique_lock lock(mutex_);
+  const auto known = groups_.find(own);
+  std::shared_ptr<PixelBuffers> buffers = known != groups_.end() ? known->second : nullptr;
+  lock.unlock();
   if (way == ReadWay::kSync) {
     if (buffers != nullptr && buffers->twin() == nullptr) buffers->trim();  // the probe is over
     return nullptr;
@@ -17,8 +19,9 @@ std::shared_ptr<PixelBuffers> PixelBufferGroups::of_context(const void* own, Rea
   if (buffers == nullptr) {
     buffers = std::make_shared<PixelBuffers>(gl, display);
     if (!PixelBuffers::offered(gl)) buffers->refuse();
-    const std::lock_guard lock(mutex_);
-    entries_.push_back({own, buffers});
+    lock.lock();
+    groups_[own] = buffers;
+    lock.unlock();
   }
   if (buffers->refused() || (way == ReadWay::kAsync && !reader.accepts())) return nullptr;
   if (way != ReadWay::kAsync || buffers->twin() != nullptr) return buffers;
@@ -31,28 +34,17 @@ std::shared_ptr<PixelBuffers> PixelBufferGroups::of_context(const void* own, Rea
   return nullptr;
 }
 
-std::shared_ptr<PixelBuffers> PixelBufferGroups::find(const void* context) {
-  const std::lock_guard lock(mutex_);
-  for (const Entry& entry : entries_)
-    if (entry.context == context) return entry.buffers;
-  return nullptr;
-}
-
 std::shared_ptr<PixelBuffers> PixelBufferGroups::take(const void* context) {
   const std::lock_guard lock(mutex_);
-  const auto found = std::find_if(entries_.begin(), entries_.end(),
-                                  [&](const Entry& entry) { return entry.context == context; });
-  if (found == entries_.end()) return nullptr;
-  std::shared_ptr<PixelBuffers> buffers = std::move(found->buffers);
-  entries_.erase(found);
-  return buffers;
+  auto taken = groups_.extract(context);
+  return taken ? std::move(taken.mapped()) : nullptr;
 }
 
 std::vector<std::shared_ptr<PixelBuffers>> PixelBufferGroups::of_display(const void* display) {
   const std::lock_guard lock(mutex_);
   std::vector<std::shared_ptr<PixelBuffers>> found;
-  for (const Entry& entry : entries_)
-    if (entry.buffers->display() == display) found.push_back(entry.buffers);
+  for (const auto& [context, buffers] : groups_)
+    if (buffers->display() == display) found.push_back(buffers);
   return found;
 }
 

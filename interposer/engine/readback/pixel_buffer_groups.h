@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -28,13 +29,8 @@ class PixelBufferGroups {
   std::vector<std::shared_ptr<PixelBuffers>> of_display(const void* display);
 
  private:
-  std::shared_ptr<PixelBuffers> find(const void* context);
-  struct Entry {
-    const void* context;
-    std::shared_ptr<PixelBuffers> buffers;
-  };
   std::mutex mutex_;
-  std::vector<Entry> entries_;
+  std::map<const void*, std::shared_ptr<PixelBuffers>> groups_;  ///< by context
 };
 
 /// Makes the reader delete the buffers that are not in use. Does not wait.

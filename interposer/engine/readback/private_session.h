@@ -3,9 +3,10 @@
 
 #include <GL/gl.h>
 
-#include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <vector>
 
@@ -56,41 +57,32 @@ class ContextPool {
   struct Key {
     const void* display;
     uintptr_t config;
-    bool operator==(const Key&) const = default;
+    auto operator<=>(const Key&) const = default;
   };
   /// Returns a free context for `key`, or null. The caller owns the context until give().
   void* take(const Key& key) {
     std::lock_guard lock(mutex_);
-    const auto found =
-        std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.key == key; });
-    if (found == entries_.end()) return nullptr;
-    void* context = found->context;
-    entries_.erase(found);
-    return context;
+    const auto taken = free_.extract(key);
+    return taken ? taken.mapped() : nullptr;
   }
   void give(const Key& key, void* context) {
     std::lock_guard lock(mutex_);
-    entries_.push_back({key, context});
+    free_.emplace(key, context);
   }
   /// Takes out all free contexts of `display`.
   std::vector<void*> take_all(const void* display) {
     std::lock_guard lock(mutex_);
     std::vector<void*> taken;
-    std::erase_if(entries_, [&](const Entry& entry) {
-      if (entry.key.display != display) return false;
-      taken.push_back(entry.context);
-      return true;
+    std::erase_if(free_, [&](const auto& entry) {
+      if (entry.first.display == display) taken.push_back(entry.second);
+      return entry.first.display == display;
     });
     return taken;
   }
 
  private:
-  struct Entry {
-    Key key;
-    void* context;
-  };
   std::mutex mutex_;
-  std::vector<Entry> entries_;
+  std::multimap<Key, void*> free_;
 };
 
 /// The private contexts of one source, and how they are made current and left. Thread-safe. Errors have the

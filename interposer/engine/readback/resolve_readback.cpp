@@ -10,6 +10,21 @@
 namespace tilepress {
 namespace {
 
+GLenum storage_format(const SurfaceShape& shape) {
+  switch (*shape.format) {
+    case PixelFormat::kRgbx8:
+      return GL_RGB8;
+    case PixelFormat::kRgb565:
+      return GL_RGB565;
+    case PixelFormat::kRgb10a2:
+      return GL_RGB10_A2;
+    case PixelFormat::kRgba16f:
+      return GL_RGBA16F;
+    default:
+      return shape.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
+  }
+}
+
 // Two framebuffers and a renderbuffer for one blit. They live no longer, because Mesa shares even the names
 // of framebuffers with the program.
 class ResolveObjects {
@@ -26,9 +41,10 @@ class ResolveObjects {
   ResolveObjects(const ResolveObjects&) = delete;
   ResolveObjects& operator=(const ResolveObjects&) = delete;
 
-  void draw_to(GLenum format, GLsizei width, GLsizei height) const {
+  void draw_to_image_of(const SurfaceShape& shape) const {
     gl_.BindRenderbuffer(GL_RENDERBUFFER, storage_);
-    gl_.RenderbufferStorage(GL_RENDERBUFFER, format, width, height);
+    gl_.RenderbufferStorage(GL_RENDERBUFFER, storage_format(shape), static_cast<GLsizei>(shape.width),
+                            static_cast<GLsizei>(shape.height));
     gl_.BindRenderbuffer(GL_RENDERBUFFER, 0);
     gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffers_[0]);
     gl_.FramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, storage_);
@@ -77,22 +93,8 @@ bool can_resolve(const GlFunctions& gl) {
          gl.BindRenderbuffer != nullptr && gl.RenderbufferStorage != nullptr && gl.BlitFramebuffer != nullptr;
 }
 
-GLenum storage_format(const SurfaceShape& shape) {
-  switch (*shape.format) {
-    case PixelFormat::kRgbx8:
-      return GL_RGB8;
-    case PixelFormat::kRgb565:
-      return GL_RGB565;
-    case PixelFormat::kRgb10a2:
-      return GL_RGB10_A2;
-    case PixelFormat::kRgba16f:
-      return GL_RGBA16F;
-    default:
-      return shape.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
-  }
-}
-
-void blit(const GlFunctions& gl, GLint width, GLint height) {
+void blit(const GlFunctions& gl, const SurfaceShape& shape) {
+  const auto width = static_cast<GLint>(shape.width), height = static_cast<GLint>(shape.height);
   const uint8_t mark = *drawn_mark();  // our call may come along the second road, as if the program drew
   gl.BlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   *drawn_mark() = mark;
@@ -104,13 +106,12 @@ Result<void> read_resolved(const GlFunctions& gl, const Attachment& attachment, 
                            CapturedFrame& frame) {
   const Error failed = unreadable("the image cannot be resolved");
   if (!can_resolve(gl)) return failed;
-  const auto width = static_cast<GLint>(shape.width), height = static_cast<GLint>(shape.height);
   const ResolveObjects objects(gl);
-  objects.draw_to(storage_format(shape), width, height);
+  objects.draw_to_image_of(shape);
   if (!objects.read_from(attachment))
     return unreadable("the driver does not say which layer of the array is drawn");
   gl.clear_errors();
-  blit(gl, width, height);
+  blit(gl, shape);
   if (gl.GetError() != GL_NO_ERROR) return failed;
   objects.read_what_was_drawn();
   Attachment resolved;
@@ -120,30 +121,18 @@ Result<void> read_resolved(const GlFunctions& gl, const Attachment& attachment, 
   return {};
 }
 
-BackBuffer::BackBuffer(const GlFunctions& gl, const SurfaceShape& shape) : gl_(gl) {
+bool with_back_buffer(const GlFunctions& gl, const SurfaceShape& shape, const std::function<bool()>& read) {
   // Drivers have crashed on a read with READ_BUFFER = NONE. A fresh context has GL_BACK on a window, but
   // perhaps not on other surfaces.
   if (gl.ReadBuffer != nullptr) gl.ReadBuffer(GL_BACK);
   GLint multisampled = 0;
   gl.GetIntegerv(GL_SAMPLE_BUFFERS, &multisampled);
-  if (multisampled == 0 || !can_resolve(gl)) return;
-  const auto width = static_cast<GLint>(shape.width), height = static_cast<GLint>(shape.height);
-  gl.GenFramebuffers(1, &framebuffer_);
-  gl.GenRenderbuffers(1, &storage_);
-  gl.BindRenderbuffer(GL_RENDERBUFFER, storage_);
-  gl.RenderbufferStorage(GL_RENDERBUFFER, storage_format(shape), width, height);
-  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
-  gl.FramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, storage_);
-  blit(gl, width, height);
-  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
-  whole_ = gl.GetError() == GL_NO_ERROR;
-}
-
-BackBuffer::~BackBuffer() {
-  if (framebuffer_ == 0) return;
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
-  gl_.DeleteFramebuffers(1, &framebuffer_);
-  gl_.DeleteRenderbuffers(1, &storage_);
+  if (multisampled == 0 || !can_resolve(gl)) return read();
+  const ResolveObjects objects(gl);
+  objects.draw_to_image_of(shape);
+  blit(gl, shape);
+  objects.read_what_was_drawn();
+  return gl.GetError() == GL_NO_ERROR && read();
 }
 
 }  // namespace tilepress

@@ -2,10 +2,10 @@
 // them.
 #pragma once
 
-#include <cstdint>
+#include <compare>
+#include <map>
 #include <mutex>
 #include <optional>
-#include <vector>
 
 #include "tilepress/pixel_format.h"
 
@@ -25,34 +25,29 @@ class ConfigCache {
   struct Key {
     const void* display;
     int id, screen;
-    bool operator==(const Key&) const = default;
+    auto operator<=>(const Key&) const = default;
   };
   /// Returns the config of `key`. Calls `query` for it until `query` returns one.
   template <typename Query>
   std::optional<KnownConfig> find(const Key& key, const Query& query) {
     {
       const std::lock_guard lock(mutex_);
-      for (const Entry& entry : entries_)
-        if (entry.key == key) return entry.config;
+      if (const auto known = configs_.find(key); known != configs_.end()) return known->second;
     }
     const std::optional<KnownConfig> found = query();
     const std::lock_guard lock(mutex_);
-    if (found) entries_.push_back({key, *found});
+    if (found) configs_.emplace(key, *found);
     return found;
   }
   /// The display ends. Its configs and their numbers may mean something else afterwards.
   void forget(const void* display) {
     const std::lock_guard lock(mutex_);
-    std::erase_if(entries_, [&](const Entry& entry) { return entry.key.display == display; });
+    std::erase_if(configs_, [&](const auto& entry) { return entry.first.display == display; });
   }
 
  private:
-  struct Entry {
-    Key key;
-    KnownConfig config;
-  };
   std::mutex mutex_;
-  std::vector<Entry> entries_;
+  std::map<Key, KnownConfig> configs_;
 };
 
 }  // namespace tilepress

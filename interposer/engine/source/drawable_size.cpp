@@ -4,25 +4,27 @@
 
 #include <GL/glx.h>
 #include <dlfcn.h>
-#include <xcb/xproto.h>
 
 #include <cstdlib>
 #include <initializer_list>
+#include <type_traits>
 
 namespace tilepress {
 
 DrawableSize::DrawableSize(const LibrarySymbols& library) {
   dlopen("libX11-xcb.so.1", RTLD_LAZY | RTLD_LOCAL);
   dlerror();
-  get_connection_ =
-      reinterpret_cast<GetConnection>(library.find_in_loaded("libX11-xcb.so.1", "XGetXCBConnection"));
-  get_geometry_ = library.find_in_loaded("libxcb.so.1", "xcb_get_geometry");
-  get_geometry_reply_ = library.find_in_loaded("libxcb.so.1", "xcb_get_geometry_reply");
-  get_attributes_ = library.find_in_loaded("libxcb.so.1", "xcb_get_window_attributes");
-  get_glx_attributes_ = library.find_in_loaded("libxcb-glx.so.0", "xcb_glx_get_drawable_attributes");
-  get_glx_attributes_reply_ =
-      library.find_in_loaded("libxcb-glx.so.0", "xcb_glx_get_drawable_attributes_reply");
-  get_attributes_reply_ = library.find_in_loaded("libxcb.so.1", "xcb_get_window_attributes_reply");
+  const auto fill = [&](auto& function, const char* file, const char* name) {
+    function =
+        reinterpret_cast<std::remove_reference_t<decltype(function)>>(library.find_in_loaded(file, name));
+  };
+  fill(get_connection_, "libX11-xcb.so.1", "XGetXCBConnection");
+  fill(get_geometry_, "libxcb.so.1", "xcb_get_geometry");
+  fill(get_geometry_reply_, "libxcb.so.1", "xcb_get_geometry_reply");
+  fill(get_attributes_, "libxcb.so.1", "xcb_get_window_attributes");
+  fill(get_attributes_reply_, "libxcb.so.1", "xcb_get_window_attributes_reply");
+  fill(get_glx_attributes_, "libxcb-glx.so.0", "xcb_glx_get_drawable_attributes");
+  fill(get_glx_attributes_reply_, "libxcb-glx.so.0", "xcb_glx_get_drawable_attributes_reply");
 }
 
 bool DrawableSize::query(Display* display, XID drawable, unsigned& width, unsigned& height,
@@ -32,14 +34,11 @@ bool DrawableSize::query(Display* display, XID drawable, unsigned& width, unsign
     return false;
   xcb_connection_t* connection = get_connection_(display);
   const auto id = static_cast<uint32_t>(drawable);
-  const auto size_asked = reinterpret_cast<decltype(&xcb_get_geometry)>(get_geometry_)(connection, id);
-  const auto visual_asked =
-      reinterpret_cast<decltype(&xcb_get_window_attributes)>(get_attributes_)(connection, id);
+  const auto size_asked = get_geometry_(connection, id);
+  const auto visual_asked = get_attributes_(connection, id);
   xcb_generic_error_t* errors[2] = {};
-  auto* size = reinterpret_cast<decltype(&xcb_get_geometry_reply)>(get_geometry_reply_)(
-      connection, size_asked, &errors[0]);
-  auto* attributes = reinterpret_cast<decltype(&xcb_get_window_attributes_reply)>(get_attributes_reply_)(
-      connection, visual_asked, &errors[1]);
+  auto* size = get_geometry_reply_(connection, size_asked, &errors[0]);
+  auto* attributes = get_attributes_reply_(connection, visual_asked, &errors[1]);
   if (size != nullptr) {
     width = size->width;
     height = size->height;
@@ -53,24 +52,12 @@ bool DrawableSize::query(Display* display, XID drawable, unsigned& width, unsign
 }
 
 bool DrawableSize::query_glx(Display* display, XID drawable, GlxDrawable& found) const {
-  // These types are in xcb/glx.h, which is in a package of its own. Pairs of name and value follow the reply.
-  struct Cookie {
-    unsigned sequence;
-  };
-  struct Reply {
-    uint8_t type, unused;
-    uint16_t sequence;
-    uint32_t length, attribute_count, unused_words[5];
-  };
-  using Get = Cookie (*)(xcb_connection_t*, uint32_t);
-  using GetReply = Reply* (*)(xcb_connection_t*, Cookie, xcb_generic_error_t**);
   if (get_connection_ == nullptr || get_glx_attributes_ == nullptr || get_glx_attributes_reply_ == nullptr)
     return false;
   xcb_connection_t* connection = get_connection_(display);
   xcb_generic_error_t* error = nullptr;
-  const Cookie asked =
-      reinterpret_cast<Get>(get_glx_attributes_)(connection, static_cast<uint32_t>(drawable));
-  Reply* reply = reinterpret_cast<GetReply>(get_glx_attributes_reply_)(connection, asked, &error);
+  const GlxCookie asked = get_glx_attributes_(connection, static_cast<uint32_t>(drawable));
+  GlxReply* reply = get_glx_attributes_reply_(connection, asked, &error);
   found = {};
   for (uint32_t i = 0; reply != nullptr && i < reply->attribute_count && 2 * i + 1 < reply->length; ++i) {
     const uint32_t* attribute = reinterpret_cast<const uint32_t*>(reply + 1) + size_t{2} * i;

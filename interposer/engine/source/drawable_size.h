@@ -3,10 +3,9 @@
 #pragma once
 
 #include <X11/Xlib.h>
+#include <xcb/xproto.h>
 
 #include "interposer/engine/source/library_symbols.h"
-
-struct xcb_connection_t;
 
 namespace tilepress {
 
@@ -28,14 +27,22 @@ class DrawableSize {
   bool query_glx(Display* display, XID drawable, GlxDrawable& found) const;
 
  private:
-  using GetConnection = xcb_connection_t* (*)(Display*);
-  GetConnection get_connection_ = nullptr;
-  void* get_geometry_ = nullptr;
-  void* get_geometry_reply_ = nullptr;
-  void* get_attributes_ = nullptr;
-  void* get_attributes_reply_ = nullptr;
-  void* get_glx_attributes_ = nullptr;
-  void* get_glx_attributes_reply_ = nullptr;
+  // Types of xcb/glx.h, which is in a package of its own. Pairs of name and value follow the reply.
+  struct GlxCookie {
+    unsigned sequence;
+  };
+  struct GlxReply {
+    uint8_t type, unused;
+    uint16_t sequence;
+    uint32_t length, attribute_count, unused_words[5];
+  };
+  xcb_connection_t* (*get_connection_)(Display*) = nullptr;
+  decltype(&xcb_get_geometry) get_geometry_ = nullptr;
+  decltype(&xcb_get_geometry_reply) get_geometry_reply_ = nullptr;
+  decltype(&xcb_get_window_attributes) get_attributes_ = nullptr;
+  decltype(&xcb_get_window_attributes_reply) get_attributes_reply_ = nullptr;
+  GlxCookie (*get_glx_attributes_)(xcb_connection_t*, uint32_t) = nullptr;
+  GlxReply* (*get_glx_attributes_reply_)(xcb_connection_t*, GlxCookie, xcb_generic_error_t**) = nullptr;
 };
 
 }  // namespace tilepress

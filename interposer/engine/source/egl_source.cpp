@@ -4,11 +4,9 @@
 #include <vector>
 
 #include "interposer/engine/readback/channel_bits.h"
-#include "interposer/engine/readback/private_session.h"
-#include "interposer/engine/source/config_cache.h"
 #include "interposer/engine/source/context_version.h"
 #include "interposer/engine/source/egl_functions.h"
-#include "interposer/engine/source/present_source.h"
+#include "interposer/engine/source/session_source.h"
 
 namespace tilepress {
 namespace {
@@ -21,13 +19,12 @@ bool holds(const char* all, const char* name) {
   return all != nullptr && strstr(all, name) != nullptr;
 }
 
-class EglSource final : public PresentSource, ContextApi {
+class EglSource final : public SessionSource {
  public:
   EglSource(const EglFunctions& egl, const GlFunctions& gl, const SourceSettings& settings)
-      : egl_(egl), gl_(gl), session_(*this, gl_, settings.reader, settings.in_context_only) {}
+      : SessionSource(gl, settings), egl_(egl) {}
 
   const char* api() const override { return "EGL"; }
-  const GlFunctions& gl() const override { return gl_; }
 
   Result<Drawable> describe(const TilepressPresent& present) override {
     const EGLSurface surface = surface_of(present);
@@ -50,25 +47,6 @@ class EglSource final : public PresentSource, ContextApi {
                     config->multisampled};
   }
 
-  Result<void> read(const TilepressPresent& present, const Drawable& drawable,
-                    CapturedFrame& frame) override {
-    return session_.read(present, drawable, frame);
-  }
-  Result<void> read_in_place(const TilepressPresent& present, const Drawable& drawable, GLenum buffer,
-                             CapturedFrame& frame) override {
-    return session_.read_in_place(present, drawable, buffer, frame);
-  }
-  Result<void> beside(const TilepressPresent& present, const std::function<void()>& work) override {
-    return session_.beside(present, work);
-  }
-
-  bool find_current(TilepressPresent& present, FramebufferUse use) override {
-    if (egl_.GetCurrentContext() == EGL_NO_CONTEXT) return false;
-    present.display = egl_.GetCurrentDisplay();
-    present.surface = reinterpret_cast<uintptr_t>(
-        egl_.GetCurrentSurface(use == FramebufferUse::kRead ? EGL_READ : EGL_DRAW));
-    return true;
-  }
   const void* context() const override { return egl_.GetCurrentContext(); }
 
   uint32_t take_error() override { return static_cast<uint32_t>(egl_.GetError()); }
@@ -255,9 +233,6 @@ class EglSource final : public PresentSource, ContextApi {
   }
 
   const EglFunctions egl_;
-  const GlFunctions gl_;
-  ConfigCache configs_;
-  PrivateSession session_;
 };
 
 }  // namespace

@@ -1,11 +1,9 @@
 // GLX source: describes and reads the drawable of a glXSwapBuffers.
 #include "interposer/engine/readback/channel_bits.h"
-#include "interposer/engine/readback/private_session.h"
-#include "interposer/engine/source/config_cache.h"
 #include "interposer/engine/source/context_version.h"
 #include "interposer/engine/source/drawable_size.h"
 #include "interposer/engine/source/glx_functions.h"
-#include "interposer/engine/source/present_source.h"
+#include "interposer/engine/source/session_source.h"
 #include "interposer/engine/source/x_display.h"
 
 namespace tilepress {
@@ -13,11 +11,11 @@ namespace {
 
 constexpr bool kResizable = true;  // the XID of a pbuffer looks like that of a window
 
-class GlxSource final : public PresentSource, ContextApi {
+class GlxSource final : public SessionSource {
  public:
   GlxSource(const GlxFunctions& glx, const GlFunctions& gl, const LibrarySymbols& library,
             const SourceSettings& settings)
-      : glx_(glx), gl_(gl), size_(library), session_(*this, gl_, settings.reader, settings.in_context_only) {
+      : SessionSource(gl, settings), glx_(glx), size_(library) {
     DisplayEnds::instance().add([this](Display* display) {
       session_.forget(display);
       configs_.forget(display);
@@ -25,7 +23,6 @@ class GlxSource final : public PresentSource, ContextApi {
   }
 
   const char* api() const override { return "GLX"; }
-  const GlFunctions& gl() const override { return gl_; }
 
   Result<Drawable> describe(const TilepressPresent& present) override {
     const bool is_current =
@@ -34,25 +31,6 @@ class GlxSource final : public PresentSource, ContextApi {
     return is_current ? describe_current(present) : describe_idle(present);
   }
 
-  Result<void> read(const TilepressPresent& present, const Drawable& drawable,
-                    CapturedFrame& frame) override {
-    return session_.read(present, drawable, frame);
-  }
-  Result<void> read_in_place(const TilepressPresent& present, const Drawable& drawable, GLenum buffer,
-                             CapturedFrame& frame) override {
-    return session_.read_in_place(present, drawable, buffer, frame);
-  }
-  Result<void> beside(const TilepressPresent& present, const std::function<void()>& work) override {
-    return session_.beside(present, work);
-  }
-
-  bool find_current(TilepressPresent& present, FramebufferUse use) override {
-    if (glx_.GetCurrentContext() == nullptr) return false;
-    present.display = glx_.GetCurrentDisplay();
-    present.surface =
-        use == FramebufferUse::kRead ? glx_.GetCurrentReadDrawable() : glx_.GetCurrentDrawable();
-    return true;
-  }
   const void* context() const override { return glx_.GetCurrentContext(); }
 
   void release(void* display) override { session_.release(display); }
@@ -248,10 +226,7 @@ class GlxSource final : public PresentSource, ContextApi {
   }
 
   const GlxFunctions glx_;
-  const GlFunctions gl_;
   const DrawableSize size_;
-  ConfigCache configs_;
-  PrivateSession session_;
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <memory>
-#include <string>
 
 #include "interposer/engine/readback/bound_framebuffer.h"
 #include "interposer/engine/readback/captured_frame.h"
@@ -13,10 +12,6 @@
 #include "tilepress/result.h"
 
 namespace tilepress {
-
-struct GlStrings {
-  std::string vendor, renderer, version;
-};
 
 /// One per API and real library. The presenting thread makes all calls, before the real call. Several threads
 /// may be inside at once.
@@ -55,8 +50,8 @@ class PresentSource {
   /// The program is about to destroy a surface of `display`: frees pixel buffers that are not in use.
   virtual void trim(void*) {}
 
-  /// Strings of the program's context, which must be current.
-  GlStrings strings() const;
+  /// A string of the program's context, which must be current; "" if it has none.
+  const char* string(GLenum name) const;
   /// Returns true if Mesa draws on the processor in the program's context.
   bool draws_in_software() const;
 };

@@ -135,13 +135,10 @@ Result<void> CaptureWorker::create_directory() {
   return {};
 }
 
-CaptureWorker::Surface* CaptureWorker::known_surface(const CapturedFrame& frame) {
-  const auto found = surfaces_.find(frame.window);
-  return found != surfaces_.end() && found->second.number == frame.surface ? &found->second : nullptr;
-}
-
 Result<void> CaptureWorker::process(const CapturedFrame& frame) {
-  Surface* surface = known_surface(frame);
+  const auto found = surfaces_.find(frame.window);
+  const bool known = found != surfaces_.end() && found->second.number == frame.surface;
+  Surface* surface = known ? &found->second : nullptr;
   // The first frame of a surface, and stored surfaces, allocate memory: always on this thread, or it would come
   // from two heaps.
   const bool may_yield = options_.on_full == OnFull::kBlock && surface != nullptr && stored_.empty();

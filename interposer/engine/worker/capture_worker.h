@@ -56,8 +56,6 @@ class CaptureWorker {
   void count_after_end();
   void end_run();
   Result<void> create_directory();
-  /// Returns null before the surface's first frame.
-  Surface* known_surface(const CapturedFrame& frame);
   Result<void> process(const CapturedFrame& frame);
   /// Compresses the rest of a frame that has begun.
   void compress(SurfaceEngine& engine, bool may_yield);
