@@ -1,14 +1,11 @@
 // File digest: SHA-256 by OpenSSL's libcrypto.
 #include "tilepress/file_digest.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <openssl/evp.h>
-#include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -25,11 +22,11 @@ class Sha256 {
     good_ = good_ && EVP_DigestUpdate(digest_.get(), bytes, count) == 1;
   }
   Result<std::string> finish() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> bytes;
+    unsigned char bytes[EVP_MAX_MD_SIZE];
     unsigned int length = 0;
-    if (!good_ || EVP_DigestFinal_ex(digest_.get(), bytes.data(), &length) != 1)
+    if (!good_ || EVP_DigestFinal_ex(digest_.get(), bytes, &length) != 1)
       return Error{ErrorKind::kSystem, "libcrypto cannot compute SHA-256"};
-    return fmt::format("{:02x}", fmt::join(bytes.data(), bytes.data() + length, ""));
+    return fmt::format("{:02x}", fmt::join(bytes, bytes + length, ""));
   }
 
  private:
@@ -40,21 +37,12 @@ class Sha256 {
 }  // namespace
 
 Result<std::string> sha256_of_file(const std::string& path) {
-  const auto fault = [] { return Error{ErrorKind::kFile, std::strerror(errno)}; };
-  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return fault();
+  const std::unique_ptr<FILE, int (*)(FILE*)> file(std::fopen(path.c_str(), "rbe"), std::fclose);
   Sha256 digest;
-  std::vector<uint8_t> buffer(1 << 18);
-  ssize_t got = 1;
-  while (got != 0) {
-    got = read(fd, buffer.data(), buffer.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) break;
-    digest.add(buffer.data(), static_cast<size_t>(got));
-  }
-  const Error unread = fault();
-  close(fd);
-  if (got < 0) return unread;
+  std::vector<char> buffer(1 << 18);
+  while (file != nullptr && std::feof(file.get()) == 0 && std::ferror(file.get()) == 0)
+    digest.add(buffer.data(), std::fread(buffer.data(), 1, buffer.size(), file.get()));
+  if (file == nullptr || std::ferror(file.get()) != 0) return Error{ErrorKind::kFile, std::strerror(errno)};
   return digest.finish();
 }
 

@@ -2,26 +2,20 @@
 #include "tilepress/program_api.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <string_view>
-#include <vector>
 
 namespace tilepress {
 namespace {
 
-constexpr std::array<std::string_view, 4> kEglNames = {"eglSwapBuffers", "eglGetDisplay",
-                                                       "eglGetPlatformDisplay", "libEGL.so"};
-constexpr std::array<std::string_view, 4> kGlxNames = {"glXSwapBuffers", "glXCreateContext", "glXMakeCurrent",
-                                                       "libGLX.so"};
-constexpr size_t kPieceBytes = 1 << 20;
-constexpr size_t kOverlapBytes = 32;  // no name is longer
+using Names = std::string_view[4];
+constexpr Names kEglNames = {"eglSwapBuffers", "eglGetDisplay", "eglGetPlatformDisplay", "libEGL.so"};
+constexpr Names kGlxNames = {"glXSwapBuffers", "glXCreateContext", "glXMakeCurrent", "libGLX.so"};
 
-bool holds_any(const std::vector<char>& piece, size_t length, const std::array<std::string_view, 4>& names) {
-  const std::string_view text(piece.data(), length);
-  return std::any_of(names.begin(), names.end(),
-                     [text](std::string_view name) { return text.find(name) != std::string_view::npos; });
+bool holds_any(const std::string& text, const Names& names) {
+  return std::ranges::any_of(names, [&](const auto& name) { return text.find(name) != std::string::npos; });
 }
 
 bool is_set(const char* variable) {
@@ -33,17 +27,8 @@ bool is_set(const char* variable) {
 
 ApiGuess guess_program_api(const std::string& program_path) {
   std::ifstream file(program_path, std::ios::binary);
-  std::vector<char> piece(kOverlapBytes + kPieceBytes);
-  bool egl = false, glx = false;
-  size_t kept = 0;
-  while (file && !(egl && glx)) {
-    file.read(piece.data() + kept, static_cast<std::streamsize>(kPieceBytes));
-    const size_t length = kept + static_cast<size_t>(file.gcount());
-    egl = egl || holds_any(piece, length, kEglNames);
-    glx = glx || holds_any(piece, length, kGlxNames);
-    kept = std::min(length, kOverlapBytes);
-    std::copy_n(piece.begin() + static_cast<ptrdiff_t>(length - kept), kept, piece.begin());
-  }
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const bool egl = holds_any(text, kEglNames), glx = holds_any(text, kGlxNames);
   if (egl != glx)
     return {egl ? TraceApi::kEgl : TraceApi::kGlx, egl ? "the program names EGL functions and no GLX ones"
                                                        : "the program names GLX functions and no EGL ones"};

@@ -3,7 +3,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include "frame_rows.h"
 #include "private_xvfb.h"
 #include "tilepress/program_search.h"
+#include "tilepress/shim_environment.h"
 #include "watched_process.h"
 
 namespace tilepress {
@@ -28,9 +28,7 @@ std::map<std::string, std::string> environment_of(const ReplayRoad& road, const 
   run.log_file = order.folder + "/session/log";
   std::map<std::string, std::string> environment = to_environment(run);
   environment["TILEPRESS_SESSION"] = order.folder + "/session";
-  const char* preload = std::getenv("LD_PRELOAD");
-  environment["LD_PRELOAD"] =
-      preload != nullptr && *preload != '\0' ? options.shim + ":" + preload : options.shim;
+  (void)add_shim_environment(environment, ShimRoad::kPreload, options.shim);
   environment["WAFFLE_PLATFORM"] = road.waffle_platform;
   // A replay must not see the window system of the desktop session.
   environment["EGL_PLATFORM"] = "";

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <future>
 #include <mutex>
-#include <thread>
 
 namespace tilepress {
 namespace {
@@ -16,18 +16,14 @@ constexpr std::chrono::milliseconds kTickPeriod{100};
 class ReadyReplays {
  public:
   void add(TraceReplay* replay) {
-    {
-      const std::lock_guard lock(mutex_);
-      replays_.push_back(replay);
-    }
+    const std::lock_guard lock(mutex_);
+    replays_.push_back(replay);
     changed_.notify_one();
   }
   /// No replay is added after this.
   void close() {
-    {
-      const std::lock_guard lock(mutex_);
-      closed_ = true;
-    }
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
     changed_.notify_all();
   }
   /// Waits for the next replay. Returns null if none is left, or once `stop` is set.
@@ -71,11 +67,8 @@ void ReplayBatch::run(unsigned jobs, const std::atomic<int>& stop,
                       const std::function<void(const BatchProgress&)>& tick) {
   jobs = std::max(jobs, 1u);
   ReadyReplays ready;
-  std::mutex mutex;
-  std::condition_variable ended;
-  size_t working = std::min<size_t>(jobs, replays_.size());  // guarded by mutex
-  std::vector<std::thread> threads;
-  threads.emplace_back([&] {
+  std::vector<std::future<void>> tasks;
+  tasks.push_back(std::async(std::launch::async, [&] {
     for (const auto& replay : replays_) {
       if (stop) break;
       const bool at_once = ready.count() < jobs;
@@ -83,20 +76,15 @@ void ReplayBatch::run(unsigned jobs, const std::atomic<int>& stop,
         ready.add(replay.get());
     }
     ready.close();
-  });
-  for (size_t i = working; i > 0; --i)
-    threads.emplace_back([&] {
-      for (TraceReplay* replay = ready.next(stop); replay != nullptr; replay = ready.next(stop))
-        replay->run(stop);
-      {
-        const std::lock_guard lock(mutex);
-        --working;
-      }
-      ended.notify_one();
-    });
-  for (std::unique_lock lock(mutex); !ended.wait_for(lock, kTickPeriod, [&] { return working == 0; });)
-    tick(ready.progress());
-  for (std::thread& thread : threads) thread.join();
+  }));
+  for (size_t i = std::min<size_t>(jobs, replays_.size()); i > 0; --i)
+    tasks.push_back(std::async(std::launch::async, [&] {
+      while (TraceReplay* replay = ready.next(stop)) replay->run(stop);
+    }));
+  for (auto& task : tasks) {
+    while (task.wait_for(kTickPeriod) != std::future_status::ready) tick(ready.progress());
+    task.get();
+  }
   tick(ready.progress());
 }
 

@@ -9,10 +9,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
-#include <thread>
 
 extern char** environ;
 
@@ -80,7 +78,7 @@ void LastLines::add(const char* bytes, size_t count) {
 
 WatchedProcess::~WatchedProcess() {
   end();
-  close_all({output_fd_, errors_fd_});
+  close_all({errors_fd_});
 }
 
 Result<void> WatchedProcess::start(const std::vector<std::string>& argv,
@@ -90,19 +88,18 @@ Result<void> WatchedProcess::start(const std::vector<std::string>& argv,
   for (const std::string& word : argv) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
 
-  int output[2] = {-1, -1}, errors[2] = {-1, -1}, report[2] = {-1, -1};
+  int errors[2] = {-1, -1}, report[2] = {-1, -1};
   const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
-  bool good = nothing >= 0 && pipe2(output, O_CLOEXEC) == 0 && pipe2(errors, O_CLOEXEC) == 0 &&
-              pipe2(report, O_CLOEXEC) == 0;
+  bool good = nothing >= 0 && pipe2(errors, O_CLOEXEC) == 0 && pipe2(report, O_CLOEXEC) == 0;
   const pid_t parent = getpid();
   if (good) pid_ = fork();
   if (good && pid_ == 0)
-    become(words.data(), variables.pointers.data(), parent, {nothing, output[1], errors[1]}, report[1],
+    become(words.data(), variables.pointers.data(), parent, {nothing, nothing, errors[1]}, report[1],
            kept_fd);
   int failure = errno;
-  close_all({nothing, output[1], errors[1], report[1]});
+  close_all({nothing, errors[1], report[1]});
   if (!good || pid_ < 0) {
-    close_all({output[0], errors[0], report[0]});
+    close_all({errors[0], report[0]});
     return Error{ErrorKind::kSystem, argv[0] + ": " + std::strerror(failure)};
   }
   setpgid(pid_, pid_);  // in both processes: the group exists for both from now on
@@ -110,22 +107,21 @@ Result<void> WatchedProcess::start(const std::vector<std::string>& argv,
   while ((got = read(report[0], &failure, sizeof failure)) < 0 && errno == EINTR) {
   }
   close(report[0]);
-  output_fd_ = output[0];
   errors_fd_ = errors[0];
-  for (const int fd : {output_fd_, errors_fd_}) fcntl(fd, F_SETFL, O_NONBLOCK);
+  fcntl(errors_fd_, F_SETFL, O_NONBLOCK);
   if (got != sizeof failure) return {};
   reap(0);
   return Error{ErrorKind::kSystem, argv[0] + ": " + std::strerror(failure)};
 }
 
-bool WatchedProcess::read_from(int& fd, LastLines& lines) {
+void WatchedProcess::read_errors() {
   char buffer[4096];
   ssize_t got = 0;
-  while ((got = read(fd, buffer, sizeof buffer)) > 0) lines.add(buffer, static_cast<size_t>(got));
-  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return true;
-  close(fd);
-  fd = -1;
-  return false;
+  while (errors_fd_ >= 0 && (got = read(errors_fd_, buffer, sizeof buffer)) > 0)
+    errors_.add(buffer, static_cast<size_t>(got));
+  if (errors_fd_ < 0 || (got < 0 && (errno == EAGAIN || errno == EINTR))) return;
+  close(errors_fd_);
+  errors_fd_ = -1;
 }
 
 bool WatchedProcess::reap(int flags) {
@@ -146,35 +142,21 @@ bool WatchedProcess::reap(int flags) {
 bool WatchedProcess::wait(std::chrono::milliseconds time) {
   const auto until = std::chrono::steady_clock::now() + time;
   for (;;) {
-    std::array<pollfd, 2> fds = {pollfd{output_fd_, POLLIN, 0}, pollfd{errors_fd_, POLLIN, 0}};
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
-    const bool streams_open = output_fd_ >= 0 || errors_fd_ >= 0;
-    // With both streams closed the process is about to end, and no event reports its end.
-    const auto slice = std::max<int64_t>(0, streams_open ? left.count() : std::min<int64_t>(left.count(), 5));
-    if (streams_open && running()) {
-      poll(fds.data(), fds.size(), static_cast<int>(slice));
-    } else {
-      std::this_thread::sleep_for(std::chrono::milliseconds(reap(WNOHANG) ? 0 : slice));
-    }
-    if (output_fd_ >= 0 && fds[0].revents != 0) read_from(output_fd_, output_);
-    if (errors_fd_ >= 0 && fds[1].revents != 0) read_from(errors_fd_, errors_);
-    if (reap(WNOHANG)) {
-      if (output_fd_ >= 0) read_from(output_fd_, output_);
-      if (errors_fd_ >= 0) read_from(errors_fd_, errors_);
-      return true;
-    }
-    if (left.count() <= 0) return false;
+    // With the stream closed the process is about to end, and no event reports its end.
+    const int64_t slice = errors_fd_ >= 0 ? left.count() : std::min<int64_t>(left.count(), 5);
+    pollfd errors = {errors_fd_, POLLIN, 0};  // poll() only waits for a descriptor of -1
+    if (!reap(WNOHANG)) poll(&errors, 1, static_cast<int>(std::max<int64_t>(0, slice)));
+    const bool ended = reap(WNOHANG);  // before the last read, which then gets everything
+    read_errors();
+    if (ended || left.count() <= 0) return ended;
   }
-}
-
-void WatchedProcess::send(int signal) {
-  if (running()) kill(-pid_, signal);
 }
 
 void WatchedProcess::end() {
   if (!running()) return;
-  send(SIGTERM);
+  kill(-pid_, SIGTERM);
   const bool ended = wait(kGrace);
   kill(-pid_, SIGKILL);  // the rest of the group too
   if (!ended) reap(0);

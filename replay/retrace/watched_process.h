@@ -1,4 +1,4 @@
-// Watched process: a background program whose output is read and which can be ended.
+// Watched process: a background program whose standard error is read and which can be ended.
 #pragma once
 
 #include <sys/types.h>
@@ -38,29 +38,26 @@ class WatchedProcess {
   /// variable. `kept_fd` stays open in the process unless it is -1. Error: kSystem, the path first.
   Result<void> start(const std::vector<std::string>& argv,
                      const std::map<std::string, std::string>& environment, int kept_fd = -1);
-  /// Reads output until the process has ended or the time is over. Returns true once it has ended.
+  /// Reads standard error until the process has ended or the time is over. Returns true once it has ended.
   bool wait(std::chrono::milliseconds time);
-  /// Sends a signal to the group.
-  void send(int signal);
   /// Ends the group with SIGTERM, and with SIGKILL a second later.
   void end();
 
-  pid_t pid() const { return pid_; }
-  bool running() const { return pid_ > 0 && !ended_; }
   std::optional<int> exit_status() const { return exit_status_; }
   std::optional<int> signal() const { return signal_; }
-  const LastLines& output() const { return output_; }
+  /// Of standard error. Standard output goes nowhere.
   const LastLines& errors() const { return errors_; }
 
  private:
-  bool read_from(int& fd, LastLines& lines);
+  bool running() const { return pid_ > 0 && !ended_; }
+  void read_errors();
   bool reap(int flags);
 
   pid_t pid_ = -1;
   bool ended_ = false;
-  int output_fd_ = -1, errors_fd_ = -1;
+  int errors_fd_ = -1;
   std::optional<int> exit_status_, signal_;
-  LastLines output_, errors_;
+  LastLines errors_;
 };
 
 }  // namespace tilepress

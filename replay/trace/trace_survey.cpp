@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 
 namespace tilepress {
@@ -217,11 +218,9 @@ void TraceSurvey::report(TraceSummary& summary) const {
   summary.gl_renderer = gl_renderer_;
   if (last_time_ns_ > first_time_ns_)
     summary.duration_ns = static_cast<uint64_t>(last_time_ns_) - static_cast<uint64_t>(first_time_ns_);
-  std::vector<std::string> names;
+  std::set<std::string> names;
   for (const auto& [id, context] : contexts_)
-    if (context.presented && !context.client_api.empty()) names.push_back(context.client_api);
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
+    if (context.presented && !context.client_api.empty()) names.insert(context.client_api);
   for (const std::string& name : names) summary.contexts += (summary.contexts.empty() ? "" : ", ") + name;
 }
 
