@@ -1,16 +1,18 @@
 // Live page: a sequence lock over one mapped struct.
 #include "tilepress/live_page.h"
 
+#include <fcntl.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 
+#include "run/descriptors.h"
 #include "run/sequenced_words.h"
-#include "run/shared_file.h"
 #include "system_calls.h"
 #include "tilepress/file_error.h"
 
@@ -36,6 +38,20 @@ void publish(LivePage& page, LiveState& state) {
   store_words(words_of(page.state), words_of(state), kStateWords);
 }
 
+/// Makes a new file with zeros and maps it. Returns null on failure, and leaves no file.
+LivePage* create_page(const std::string& path) {
+  const int file = open_above_streams(path, O_RDWR | O_CREAT | O_EXCL, 0644);
+  if (file < 0) return nullptr;
+  // Not ftruncate: on a full disk, the first store into a hole would end the program with SIGBUS.
+  void* memory = MAP_FAILED;
+  if (posix_fallocate(file, 0, sizeof(LivePage)) == 0)
+    memory = mmap(nullptr, sizeof(LivePage), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  close(file);
+  if (memory != MAP_FAILED) return static_cast<LivePage*>(memory);
+  unlink(path.c_str());
+  return nullptr;
+}
+
 }  // namespace
 
 LiveWriter::~LiveWriter() {
@@ -44,7 +60,7 @@ LiveWriter::~LiveWriter() {
 
 void LiveWriter::open(const std::string& run_path, const RunInfo& info, const RunOptions& options) {
   path_ = run_path + "/" + kLiveFile;
-  page_ = static_cast<LivePage*>(create_shared_file(path_, sizeof(LivePage)));
+  page_ = create_page(path_);
   if (page_ == nullptr) return;
   copy_name(state_.program, info.program);
   state_.pid = info.pid;
@@ -116,18 +132,26 @@ void LiveWriter::close() {
 }
 
 LiveReader::~LiveReader() {
-  if (page_ != nullptr) munmap(page_, bytes_);
+  if (page_ != nullptr) munmap(page_, sizeof(LivePage));
 }
 
 Result<void> LiveReader::open(const std::string& run_path, bool asks_for_pictures) {
   const std::string path = run_path + "/" + kLiveFile;
   const Error other_version{ErrorKind::kFile, path + ": not a live page of this version"};
-  page_ = static_cast<LivePage*>(map_shared_file(path, sizeof(LivePage), asks_for_pictures, bytes_));
-  if (page_ == nullptr) return errno != 0 ? file_error(path) : other_version;
+  const int file = ::open(path.c_str(), (asks_for_pictures ? O_RDWR : O_RDONLY) | O_CLOEXEC);
+  if (file < 0) return file_error(path);
+  struct stat status {};
+  const bool whole = fstat(file, &status) == 0 && status.st_size >= static_cast<off_t>(sizeof(LivePage));
+  const int access = asks_for_pictures ? PROT_READ | PROT_WRITE : PROT_READ;
+  void* memory = whole ? mmap(nullptr, sizeof(LivePage), access, MAP_SHARED, file, 0) : MAP_FAILED;
+  const Error unmapped = whole ? file_error(path) : other_version;
+  close(file);
+  if (memory == MAP_FAILED) return unmapped;
+  page_ = static_cast<LivePage*>(memory);
   uint64_t magic = 0;
   load_words(&page_->magic, &magic, 1);
   if (magic == kMagic && page_->version == kLiveVersion && page_->size == sizeof(LivePage)) return {};
-  munmap(page_, bytes_);
+  munmap(page_, sizeof(LivePage));
   page_ = nullptr;
   return other_version;
 }

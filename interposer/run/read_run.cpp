@@ -167,8 +167,10 @@ Result<void> close_run(const RunEnd& end, RunRecord& record) {
       targets = page.targets();
     }
   }
-  for (const char* file : {kLiveFile, kLivePictureFile, kSessionMarkFile})
-    unlink((path + "/" + file).c_str());  // the first two are of a program that was killed
+  const std::string picture = kLivePictureFile;
+  for (const std::string& file :
+       {std::string(kLiveFile), picture, picture + ".tmp", std::string(kSessionMarkFile)})
+    unlink((path + "/" + file).c_str());  // all but the last are of a program that was killed
   if (end.overrules || record.state == "running" || record.state == "ended" ||
       (end.signal && record.state != "failed")) {
     record.state = end.state;

@@ -34,8 +34,8 @@ Result<void> write_whole_bytes(const std::string& path, std::string_view bytes, 
     if (written <= 0) error = written == 0 ? ENOSPC : errno;
   }
   close(fd);
-  if (error != 0) return file_error(path, error);
-  return {};
+  errno = error;
+  return error == 0 ? Result<void>() : file_error(path);
 }
 
 Result<void> replace_file(const std::string& path, std::string_view text) {

@@ -12,7 +12,8 @@ namespace tilepress {
 
 Result<std::string> read_whole_file(const std::string& path);
 
-/// Makes the file with `mode`, or replaces what it holds. A failure can leave part of the bytes.
+/// Makes the file with `mode`, or replaces what it holds. A failure can leave part of the bytes, and
+/// errno has the reason too.
 Result<void> write_whole_bytes(const std::string& path, std::string_view bytes, mode_t mode = 0666);
 
 /// Replaces `path` in one step: a reader finds the old text or the new one. Writes to "path.tmp" and renames.

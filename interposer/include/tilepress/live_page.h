@@ -113,7 +113,6 @@ class LiveReader {
 
  private:
   LivePage* page_ = nullptr;
-  size_t bytes_ = 0;
 };
 
 }  // namespace tilepress

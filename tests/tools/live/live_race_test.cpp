@@ -77,10 +77,9 @@ TEST_F(LiveRace, PicturesAreNeverTornAcrossSizes) {
   std::atomic<bool> done{false};
   std::atomic<uint64_t> seen{0};
   std::thread reader([&] {
-    LivePictureReader pictures;
     LivePicture picture;
     while (!done)
-      if (pictures.read(folder_, picture)) {
+      if (read_live_picture(folder_, picture)) {
         ASSERT_TRUE(is_sample(picture, static_cast<uint32_t>(picture.head.state.frame)));
         ++seen;
       }

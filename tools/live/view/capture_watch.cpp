@@ -18,7 +18,6 @@ bool CaptureWatch::attach(const std::string& path) {
   error_.clear();
   capture.path = path;
   reader_ = std::move(reader);
-  pictures_ = std::make_unique<LivePictureReader>();
   capture_ = capture;
   picture_ = LivePicture{};
   asked_at_ = Clock::time_point{};
@@ -78,7 +77,7 @@ bool CaptureWatch::refresh(bool wanted) {
     reader_->ask_for_pictures();
     asked_at_ = now;
   }
-  return pictures_->read(capture_.path, picture_) || news;
+  return read_live_picture(capture_.path, picture_) || news;
 }
 
 }  // namespace tilepress

@@ -38,7 +38,6 @@ class CaptureWatch {
   bool refresh_numbers();
   std::string folder_, error_;
   std::unique_ptr<LiveReader> reader_;
-  std::unique_ptr<LivePictureReader> pictures_;
   WatchedCapture capture_;
   LivePicture picture_;
   Clock::time_point asked_at_{}, looked_at_{}, read_at_{};
