@@ -1,5 +1,5 @@
 // Append file: O_APPEND, one write per record where the system allows.
-#include "run/append_file.h"
+#include "tilepress/append_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -5,8 +5,6 @@
 #include <bit>
 #include <cstring>
 
-#include "run/append_file.h"
-
 namespace tilepress {
 namespace {
 
@@ -28,13 +26,6 @@ void append_data(std::string& out, const CompressedSurface& surface) {
 
 }  // namespace
 
-BlockLog::BlockLog() : file_(std::make_unique<AppendFile>()) {}
-BlockLog::~BlockLog() = default;
-
-bool BlockLog::is_open() const {
-  return file_->is_open();
-}
-
 Result<void> BlockLog::create(const std::string& run_path, const RunOptions& options) {
   if (options.block_log.empty()) return {};
   const auto wanted = std::ranges::find(options.schemes, options.block_log, &SchemeSpec::text);
@@ -51,7 +42,7 @@ Result<void> BlockLog::create(const std::string& run_path, const RunOptions& opt
   start.scheme_bytes = static_cast<uint32_t>(wanted->text.size());
   std::string bytes;
   append_bytes(bytes, &start, 1);
-  return file_->create(run_path + "/" + std::string(kBlockLogName), bytes + wanted->text);
+  return file_.create(run_path + "/" + std::string(kBlockLogName), bytes + wanted->text);
 }
 
 std::string BlockLog::record(const FrameStatistics& frame, const BlockBits& bits,
@@ -77,7 +68,7 @@ std::string BlockLog::record(const FrameStatistics& frame, const BlockBits& bits
 }
 
 Result<void> BlockLog::append(const std::string& record) {
-  return record.empty() ? Result<void>() : file_->append(record);
+  return record.empty() ? Result<void>() : file_.append(record);
 }
 
 }  // namespace tilepress

@@ -2,11 +2,12 @@
 #include "run/descriptors.h"
 
 #include <fcntl.h>
-#include <sys/syscall.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
+
+#include "system_calls.h"
 
 namespace tilepress {
 namespace {
@@ -16,14 +17,6 @@ constexpr long kCloseRange = 436;  // the same on every architecture
 constexpr unsigned kUnshare = 2;   // CLOSE_RANGE_UNSHARE
 
 thread_local bool has_own_table = false;
-
-/// A filter may answer an unknown call by a signal. Without /proc nothing is known.
-bool calls_are_unfiltered() {
-  std::ifstream status("/proc/thread-self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("Seccomp:")) return line.find_first_not_of(" \t", 8) == line.find('0', 8);
-  return false;
-}
 
 }  // namespace
 
@@ -42,8 +35,9 @@ int open_above_streams(const std::string& path, int flags, mode_t mode, int lowe
 
 bool leave_descriptors_of_program() {
   if (has_own_table) return true;
-  if (!calls_are_unfiltered()) return false;
-  has_own_table = syscall(kCloseRange, 0u, ~0u, kUnshare) == 0;
+  // A system call filter may answer an unknown call by a signal.
+  if (system_call(SYS_prctl, PR_GET_SECCOMP) != 0) return false;
+  has_own_table = system_call(kCloseRange, 0, ~0u, kUnshare) == 0;
   return has_own_table;
 }
 

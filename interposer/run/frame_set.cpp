@@ -2,27 +2,24 @@
 #include "tilepress/frame_set.h"
 
 #include <algorithm>
-#include <charconv>
+#include <ranges>
+
+#include "tilepress/csv_table.h"
 
 namespace tilepress {
 
-static bool parse_number(std::string_view text, uint64_t& out) {
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), out);
-  return code == std::errc() && end == text.data() + text.size() && !text.empty();
-}
-
 Result<FrameSet> FrameSet::parse(std::string_view text) {
   FrameSet set;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t comma = std::min(text.find(',', begin), text.size());
-    const std::string_view part = text.substr(begin, comma - begin);
-    begin = comma + 1;
-    if (part.empty()) return Error{ErrorKind::kBadValue, "empty range"};
+  const Error no_range{ErrorKind::kBadValue, "empty range"};
+  if (text.empty()) return no_range;
+  for (const auto& word : std::views::split(text, ',')) {
+    const std::string_view part(word.begin(), word.end());
+    if (part.empty()) return no_range;
     const size_t dash = part.find('-');
     const std::string_view first_text = part.substr(0, dash);
     const std::string_view last_text = dash == std::string_view::npos ? first_text : part.substr(dash + 1);
     Range range{};
-    if (!parse_number(first_text, range.first) || !parse_number(last_text, range.last))
+    if (!read_csv(first_text, range.first) || !read_csv(last_text, range.last))
       return Error{ErrorKind::kBadValue,
                    std::string("'").append(part).append("' is not a frame or a range of frames")};
     if (range.first > range.last) return Error{ErrorKind::kBadValue, "reversed range " + std::string(part)};

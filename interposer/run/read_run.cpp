@@ -119,6 +119,27 @@ void settle(RunCounts& counts, const RunCounts& page, uint64_t captured) {
 
 }  // namespace
 
+void RunRecord::begin_sums() {
+  SchemeStatistics zero;
+  zero.burst_bits = burst_bits;
+  totals.assign(scheme_names.size(), zero);
+  target_totals = totals;
+}
+
+void RunRecord::begin_sums(const RunOptions& options) {
+  for (const SchemeSpec& spec : options.schemes) scheme_names.push_back(spec.text);
+  burst_bits = options.model.burst_bits;
+  begin_sums();
+}
+
+void RunRecord::add_to_sums(const FrameStatistics& frame) {
+  if (frame.warmup) return;
+  const bool target = is_target(frame.surface);
+  ++(target ? measured_targets : measured_frames);
+  std::vector<SchemeStatistics>& sums = target ? target_totals : totals;
+  for (size_t i = 0; i < sums.size(); ++i) sums[i] += frame.schemes[i];
+}
+
 bool holds_run(const std::string& path) {
   for (const char* name : {"frames.csv", "schemes.csv", "run.json"}) {
     std::error_code code;
@@ -141,16 +162,10 @@ Result<RunRecord> read_run(const std::string& path) {
     if (auto read = read_rows(*text, out); !read) return about(file, read.error());
   }
 
-  out.totals.assign(out.scheme_names.size(), SchemeStatistics{});
-  for (SchemeStatistics& total : out.totals) total.burst_bits = out.burst_bits;
-  out.target_totals = out.totals;
+  out.begin_sums();
   for (FrameStatistics& frame : out.frames) {
     frame.schemes.resize(out.scheme_names.size());
-    if (frame.warmup) continue;
-    const bool target = is_target(frame.surface);
-    ++(target ? out.measured_targets : out.measured_frames);
-    std::vector<SchemeStatistics>& totals = target ? out.target_totals : out.totals;
-    for (size_t i = 0; i < frame.schemes.size(); ++i) totals[i] += frame.schemes[i];
+    out.add_to_sums(frame);
   }
   return out;
 }

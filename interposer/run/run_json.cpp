@@ -125,12 +125,17 @@ Json totals_json(const std::vector<std::string>& names, const std::vector<Scheme
   return list;
 }
 
-/// The figures of images of framebuffer objects, apart from what is presented.
-Json targets_json(const RunCounts& counts, uint64_t measured_frames, const std::vector<std::string>& names,
-                  const std::vector<SchemeStatistics>& totals) {
-  return {{"counts", counts_json(counts)},
-          {"measured_frames", measured_frames},
-          {"schemes", totals_json(names, totals, measured_frames)}};
+/// `targets`: also the figures of images of framebuffer objects, apart from what is presented.
+void put_figures(const RunRecord& record, bool targets, Json& json) {
+  json["counts"] = counts_json(record.counts);
+  json["measured_frames"] = record.measured_frames;
+  json["energy"] = energy_json();
+  json["schemes"] = totals_json(record.scheme_names, record.totals, record.measured_frames);
+  if (targets)
+    json["targets"] = {
+        {"counts", counts_json(record.target_counts)},
+        {"measured_frames", record.measured_targets},
+        {"schemes", totals_json(record.scheme_names, record.target_totals, record.measured_targets)}};
 }
 
 std::string dump(const Json& document) {
@@ -165,29 +170,21 @@ std::string utc_now() {
   return text;
 }
 
-std::string run_json_text(const RunDocument& document) {
-  const RunInfo& info = document.info;
-  std::vector<std::string> names;
-  for (const SchemeSpec& spec : document.options.schemes) names.push_back(spec.text);
+std::string run_json_text(const RunRecord& record, const RunOptions& options) {
+  const RunInfo& info = record.info;
   Json json = {{"schema_version", kRunSchemaVersion},
                {"tilepress_version", TILEPRESS_VERSION},
-               {"state", document.state},
-               {"reason", document.reason},
-               {"started", document.started},
+               {"state", record.state},
+               {"reason", record.reason},
+               {"started", record.started},
                {"command", info.command},
                {"program", info.program},
                {"pid", info.pid}};
   for (const auto& [name, member] : kTexts) json[name] = info.*member;
   for (const auto& [name, value] : info.further) json[name] = value;
   json["host"] = host_json();
-  json["options"] = options_json(document.options);
-  json["counts"] = counts_json(document.counts);
-  json["measured_frames"] = document.measured_frames;
-  json["energy"] = energy_json();
-  json["schemes"] = totals_json(names, document.totals, document.measured_frames);
-  if (document.options.all_targets)
-    json["targets"] =
-        targets_json(document.target_counts, document.measured_targets, names, document.target_totals);
+  json["options"] = options_json(options);
+  put_figures(record, options.all_targets, json);
   return dump(json);
 }
 
@@ -234,13 +231,7 @@ std::string finished_run_json(std::string_view text, const RunRecord& record, co
   if (end.exit_status) json["exit_status"] = *end.exit_status;
   if (end.signal) json["signal"] = *end.signal;
   json["ended"] = utc_now();
-  json["counts"] = counts_json(record.counts);
-  json["measured_frames"] = record.measured_frames;
-  json["energy"] = energy_json();
-  json["schemes"] = totals_json(record.scheme_names, record.totals, record.measured_frames);
-  if (record.target_counts.seen > 0 || json.contains("targets"))
-    json["targets"] = targets_json(record.target_counts, record.measured_targets, record.scheme_names,
-                                   record.target_totals);
+  put_figures(record, record.target_counts.seen > 0 || json.contains("targets"), json);
   return dump(json);
 }
 

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <optional>
 #include <ranges>
 #include <utility>
 
 #include "tilepress/block.h"
+#include "tilepress/csv_table.h"
 #include "tilepress/dram_presets.h"
 #include "tilepress/nearest_word.h"
 #include "tilepress/plugin_library.h"
@@ -39,9 +39,7 @@ Result<void> refuse_word(const RunOption& option, std::string_view value, std::s
 
 std::optional<uint64_t> parse_count(std::string_view text, uint64_t least, uint64_t most) {
   uint64_t value = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool fits =
-      code == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
+  const bool fits = read_csv(text, value) && value >= least && value <= most;
   return fits ? std::optional(value) : std::nullopt;
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <ranges>
 #include <set>
 #include <vector>
 
@@ -23,11 +24,8 @@ std::string variable(const char* name) {
 
 std::vector<std::string> split_path(const std::string& text) {
   std::vector<std::string> parts;
-  for (size_t begin = 0; begin < text.size();) {
-    const size_t end = std::min(text.find(':', begin), text.size());
-    if (end > begin) parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
+  for (const auto& part : std::views::split(text, ':'))
+    if (!part.empty()) parts.emplace_back(part.begin(), part.end());
   return parts;
 }
 
@@ -58,8 +56,8 @@ std::string library_of(const std::string& vendor_file) {
 }
 
 /// The names X of libGLX_X.so.0 in the system's library folders, without those that are no driver.
-std::vector<std::string> glx_vendors() {
-  std::vector<std::string> names;
+std::set<std::string> glx_vendors() {
+  std::set<std::string> names;
   for (const char* folder :
        {"/usr/lib/x86_64-linux-gnu", "/usr/lib/aarch64-linux-gnu", "/usr/lib64", "/usr/lib"}) {
     std::error_code code;
@@ -67,25 +65,23 @@ std::vector<std::string> glx_vendors() {
       const std::string name = entry.path().filename().string();
       if (!name.starts_with("libGLX_") || !name.ends_with(".so.0")) continue;
       const std::string vendor = name.substr(7, name.size() - 12);
-      if (vendor != "indirect" && vendor != "system" && vendor != "tilepress") names.push_back(vendor);
+      if (vendor != "indirect" && vendor != "system" && vendor != "tilepress") names.insert(vendor);
     }
   }
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 
 /// The GLX vendor that libglvnd's libGLX takes: the user's choice, or the only installed vendor if libEGL
 /// uses the same driver. Empty if unknown: with several vendors, the X server chooses one for each screen.
-std::string glx_vendor(const std::string& wish, const std::vector<std::string>& installed,
+std::string glx_vendor(const std::string& wish, const std::set<std::string>& installed,
                        const std::vector<std::string>& egl_files) {
   if (!wish.empty()) return wish;
   if (installed.size() != 1) return "";
-  const std::string beside = "libEGL_" + installed.front() + ".so.0";
+  const std::string beside = "libEGL_" + *installed.begin() + ".so.0";
   const bool fits = std::any_of(egl_files.begin(), egl_files.end(), [&](const std::string& file) {
     return fs::path(library_of(file)).filename() == beside;
   });
-  return fits ? installed.front() : "";
+  return fits ? *installed.begin() : "";
 }
 
 fs::path vendor_folder(const std::string& preload_library) {
@@ -114,7 +110,7 @@ Result<void> add_shim_environment(std::map<std::string, std::string>& environmen
   std::vector<std::string> files = egl_vendor_files();
   const bool has_driver =
       std::any_of(files.begin(), files.end(), [](const auto& file) { return !library_of(file).empty(); });
-  const std::vector<std::string> glx_installed = glx_vendors();
+  const std::set<std::string> glx_installed = glx_vendors();
   const std::string glx_wish = variable("__GLX_VENDOR_LIBRARY_NAME");
   const std::string glx = glx_vendor(glx_wish, glx_installed, files);
   // With several vendors, kAuto uses the preloaded library alone.

@@ -55,10 +55,10 @@ TEST(CsvRows, OnlyAnOptionalColumnMayBeMissingOrEmpty) {
 
 TEST(PresentRows, HaveTheColumnsThatTheirReadersKnow) {
   EXPECT_EQ(
-      csv_header(present_columns()),
+      csv_header(kPresentColumns),
       "frame,surface,readback_ns,read_ns,wait_ns,damage,bind_ns,hand_off_ns,interval_ns,cause,readback\n");
-  EXPECT_EQ(csv_header(surface_columns()), "surface,role,origin,width,height,format,color_space\n");
-  EXPECT_EQ(csv_header(present_time_columns()), "surface,begin_ns,hook_ns\n");
+  EXPECT_EQ(csv_header(kSurfaceColumns), "surface,role,origin,width,height,format,color_space\n");
+  EXPECT_EQ(csv_header(kPresentTimeColumns), "surface,begin_ns,hook_ns\n");
 }
 
 TEST(PresentRows, AreReadBack) {
@@ -68,11 +68,11 @@ TEST(PresentRows, AreReadBack) {
   row.damage = "0 0 8 8;8 8 4 4";
   row.cause = "swap";
   row.readback = "in-context";
-  std::string text = csv_header(present_columns());
-  append_csv_row(present_columns(), row, text);
+  std::string text = csv_header(kPresentColumns);
+  append_csv_row(kPresentColumns, row, text);
   EXPECT_THAT(text, ::testing::EndsWith("\n3,0,0,0,5,0 0 8 8;8 8 4 4,0,0,0,swap,in-context\n"));
   CsvRecords records(text);
-  const CsvRowReader<PresentRow> reader(records, present_columns());
+  const CsvRowReader<PresentRow> reader(records, kPresentColumns);
   ASSERT_TRUE(records.next());
   PresentRow back;
   ASSERT_TRUE(reader.read(back));

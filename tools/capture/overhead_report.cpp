@@ -22,8 +22,8 @@ using Presents = std::vector<PresentTimeRow>;
 
 std::map<uint64_t, Presents> presents_by_window(const std::filesystem::path& path) {
   std::map<uint64_t, Presents> windows;
-  for_each_csv_row(path, present_time_columns(),
-                   [&](const PresentTimeRow& row) { windows[row.window].push_back(row); });
+  for_each_csv_row<PresentTimeRow>(path, kPresentTimeColumns,
+                                   [&](const PresentTimeRow& row) { windows[row.window].push_back(row); });
   return windows;
 }
 

@@ -57,7 +57,7 @@ PresentCosts present_costs(const RunRecord& run) {
       {&PresentRow::bind_ns, &PresentCosts::bind_ns},
       {&PresentRow::hand_off_ns, &PresentCosts::hand_off_ns},
       {&PresentRow::wait_ns, &PresentCosts::wait_ns}};
-  for_each_csv_row(run.path + "/presents.csv", present_columns(), [&](const PresentRow& row) {
+  for_each_csv_row<PresentRow>(run.path + "/presents.csv", kPresentColumns, [&](const PresentRow& row) {
     if (row.frame == 0) return;  // frame 0 also pays for the start
     ++costs.frames;
     for (const auto& [part, sum] : kSums) costs.*sum += static_cast<double>(row.*part);

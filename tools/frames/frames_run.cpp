@@ -53,9 +53,7 @@ FramesRun::FramesRun(ImageFrames& images, const FramesOptions& options)
     : images_(images),
       options_(options),
       progress_(options.quiet ? ProgressMode::kNever : options.progress, "frames") {
-  for (const SchemeSpec& spec : options.run.schemes) record_.scheme_names.push_back(spec.text);
-  record_.totals.assign(options.run.schemes.size(), {});
-  for (SchemeStatistics& total : record_.totals) total.burst_bits = options.run.model.burst_bits;
+  record_.begin_sums(options.run);
 }
 
 Result<void> FramesRun::open(const RunInfo& info) {
@@ -79,13 +77,10 @@ Result<void> FramesRun::take(const FrameStatistics& statistics, const std::strin
   ++record_.counts.seen;
   ++record_.counts.captured;
   if (const auto appended = sink_.append(statistics); !appended) return appended;
-  record_.measured_frames += statistics.warmup ? 0 : 1;
-  for (size_t i = 0; i < record_.totals.size(); ++i) {
-    const SchemeStatistics& scheme = statistics.schemes[i];
-    if (!statistics.warmup) record_.totals[i] += scheme;
-    if (scheme.mismatched_blocks > 0)
-      mismatch_ = verify_error(record_.scheme_names[i], statistics.frame, scheme.mismatched_blocks);
-  }
+  record_.add_to_sums(statistics);
+  for (size_t i = 0; i < record_.scheme_names.size(); ++i)
+    if (const uint64_t blocks = statistics.schemes[i].mismatched_blocks; blocks > 0)
+      mismatch_ = verify_error(record_.scheme_names[i], statistics.frame, blocks);
   if (record_.frames.empty()) record_.frames.push_back(statistics);
   return {};
 }

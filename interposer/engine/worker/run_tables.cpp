@@ -8,18 +8,7 @@
 namespace tilepress {
 namespace {
 
-const char* name_of(ReadWay way) {
-  switch (way) {
-    case ReadWay::kAsync:
-      return "async";
-    case ReadWay::kBoth:
-      return "both";
-    case ReadWay::kInContext:
-      return "in-context";
-    default:
-      return "sync";
-  }
-}
+constexpr const char* kWayNames[] = {"sync", "async", "both", "in-context"};  ///< by ReadWay
 
 template <class Columns, class Row>
 std::string line_of(const Columns& columns, const Row& row) {
@@ -31,31 +20,30 @@ std::string line_of(const Columns& columns, const Row& row) {
 }  // namespace
 
 Result<void> RunTables::create(const std::string& path) {
-  if (Result<void> made = presents_.create(path + "/presents.csv", csv_header(present_columns())); !made)
+  if (Result<void> made = presents_.create(path + "/presents.csv", csv_header(kPresentColumns)); !made)
     return made;
-  return surfaces_.create(path + "/surfaces.csv", csv_header(surface_columns()));
+  return surfaces_.create(path + "/surfaces.csv", csv_header(kSurfaceColumns));
 }
 
 Result<void> RunTables::append_present(const CapturedFrame& frame) {
   return presents_.append(line_of(
-      present_columns(),
-      PresentRow{frame.frame, frame.surface, frame.readback_ns, frame.read_ns, frame.wait_ns, frame.damage,
-                 frame.bind_ns, frame.hand_off_ns, frame.interval_ns, frame.cause, name_of(frame.way)}));
+      kPresentColumns, PresentRow{frame.frame, frame.surface, frame.readback_ns, frame.read_ns, frame.wait_ns,
+                                  frame.damage, frame.bind_ns, frame.hand_off_ns, frame.interval_ns,
+                                  frame.cause, kWayNames[static_cast<size_t>(frame.way)]}));
 }
 
 Result<void> RunTables::append_surface(const CapturedFrame& frame) {
-  return surfaces_.append(
-      line_of(surface_columns(),
-              SurfaceRow{frame.surface, frame.role == SurfaceRole::kTarget ? "target" : "presented",
-                         frame.origin, frame.view.width, frame.view.height, traits(frame.view.format).name,
-                         frame.srgb ? "srgb" : "linear"}));
+  return surfaces_.append(line_of(
+      kSurfaceColumns, SurfaceRow{frame.surface, frame.role == SurfaceRole::kTarget ? "target" : "presented",
+                                  frame.origin, frame.view.width, frame.view.height,
+                                  traits(frame.view.format).name, frame.srgb ? "srgb" : "linear"}));
 }
 
 PresentTimes::PresentTimes(int64_t pid) {
   const char* folder = std::getenv("TILEPRESS_PRESENT_TIMES");
   if (folder == nullptr || *folder == 0) return;
   const std::string stem = std::string(folder) + "/" + std::to_string(pid);
-  const std::string header = csv_header(present_time_columns());
+  const std::string header = csv_header(kPresentTimeColumns);
   std::string name = stem + ".times";
   // In another PID namespace a process may have the same number.
   Result<void> made = file_.create(name, header);
@@ -66,7 +54,7 @@ PresentTimes::PresentTimes(int64_t pid) {
 }
 
 void PresentTimes::note(uintptr_t surface, uint64_t begin_ns, uint64_t hook_ns) {
-  const std::string row = line_of(present_time_columns(), PresentTimeRow{surface, begin_ns, hook_ns});
+  const std::string row = line_of(kPresentTimeColumns, PresentTimeRow{surface, begin_ns, hook_ns});
   const std::lock_guard lock(mutex_);
   (void)file_.append(row);
 }

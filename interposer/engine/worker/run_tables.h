@@ -6,7 +6,7 @@
 #include <string>
 
 #include "interposer/engine/readback/captured_frame.h"
-#include "interposer/run/append_file.h"
+#include "tilepress/append_file.h"
 #include "tilepress/result.h"
 
 namespace tilepress {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "tilepress/append_file.h"
 #include "tilepress/compressed_surface.h"
 #include "tilepress/result.h"
 #include "tilepress/run_options.h"
@@ -14,8 +14,6 @@
 #include "tilepress/surface_engine.h"
 
 namespace tilepress {
-
-class AppendFile;
 
 /// The name of the log in a run folder.
 constexpr std::string_view kBlockLogName = "blocks.log";
@@ -59,15 +57,10 @@ static_assert(sizeof(BlockLogRecord) == 56);
 /// thread-safe. record() may run in any thread.
 class BlockLog {
  public:
-  BlockLog();
-  BlockLog(const BlockLog&) = delete;
-  BlockLog& operator=(const BlockLog&) = delete;
-  ~BlockLog();
-
   /// Begins the log in the folder `run_path`, if `options.block_log` names a scheme of the run. Error: kFile,
   /// or kBadValue if the run does not have that scheme.
   Result<void> create(const std::string& run_path, const RunOptions& options);
-  bool is_open() const;
+  bool is_open() const { return file_.is_open(); }
   /// Whether append() needs the stored surfaces of a frame.
   bool wants_data() const { return has_data_; }
 
@@ -79,7 +72,7 @@ class BlockLog {
   Result<void> append(const std::string& record);
 
  private:
-  std::unique_ptr<AppendFile> file_;
+  AppendFile file_;
   size_t scheme_ = 0;  ///< its place in the run's list
   bool has_data_ = false;
 };

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string_view>
 
 #include "tilepress/csv_table.h"
@@ -23,7 +22,20 @@ struct PresentRow {
   std::string_view cause;     ///< "swap", "finish", …
   std::string_view readback;  ///< "sync", "async", …
 };
-std::span<const CsvColumn<PresentRow>> present_columns();
+/// Optional: runs of earlier versions lack these columns.
+inline constexpr CsvColumn<PresentRow> kPresentColumns[] = {
+    csv_column<PresentRow, &PresentRow::frame>("frame"),
+    csv_column<PresentRow, &PresentRow::surface>("surface"),
+    csv_column<PresentRow, &PresentRow::readback_ns>("readback_ns", true),
+    csv_column<PresentRow, &PresentRow::read_ns>("read_ns", true),
+    csv_column<PresentRow, &PresentRow::wait_ns>("wait_ns", true),
+    csv_column<PresentRow, &PresentRow::damage>("damage", true),
+    csv_column<PresentRow, &PresentRow::bind_ns>("bind_ns", true),
+    csv_column<PresentRow, &PresentRow::hand_off_ns>("hand_off_ns", true),
+    csv_column<PresentRow, &PresentRow::interval_ns>("interval_ns", true),
+    csv_column<PresentRow, &PresentRow::cause>("cause", true),
+    csv_column<PresentRow, &PresentRow::readback>("readback", true),
+};
 
 /// A surface in surfaces.csv.
 struct SurfaceRow {
@@ -34,7 +46,15 @@ struct SurfaceRow {
   std::string_view format;
   std::string_view color_space;  ///< "srgb" or "linear"
 };
-std::span<const CsvColumn<SurfaceRow>> surface_columns();
+inline constexpr CsvColumn<SurfaceRow> kSurfaceColumns[] = {
+    csv_column<SurfaceRow, &SurfaceRow::surface>("surface"),
+    csv_column<SurfaceRow, &SurfaceRow::role>("role"),
+    csv_column<SurfaceRow, &SurfaceRow::origin>("origin"),
+    csv_column<SurfaceRow, &SurfaceRow::width>("width"),
+    csv_column<SurfaceRow, &SurfaceRow::height>("height"),
+    csv_column<SurfaceRow, &SurfaceRow::format>("format"),
+    csv_column<SurfaceRow, &SurfaceRow::color_space>("color_space"),
+};
 
 /// A present in a .times file: --measure-overhead writes a file per process.
 struct PresentTimeRow {
@@ -42,6 +62,10 @@ struct PresentTimeRow {
   uint64_t begin_ns = 0;  ///< of the call
   uint64_t hook_ns = 0;   ///< the call without the driver's part
 };
-std::span<const CsvColumn<PresentTimeRow>> present_time_columns();
+inline constexpr CsvColumn<PresentTimeRow> kPresentTimeColumns[] = {
+    csv_column<PresentTimeRow, &PresentTimeRow::window>("surface"),
+    csv_column<PresentTimeRow, &PresentTimeRow::begin_ns>("begin_ns"),
+    csv_column<PresentTimeRow, &PresentTimeRow::hook_ns>("hook_ns"),
+};
 
 }  // namespace tilepress

@@ -1,4 +1,4 @@
-// Run reader: reads a run directory back, and repairs it where the program was killed.
+// Run reader: a run directory as it is read back, and its repair where the program was killed.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace tilepress {
 
-/// A run directory read back.
+/// A run: read back, or while it is written.
 struct RunRecord {
   std::string path;
   /// From run.json: "running", "finished", "failed", "killed by signal 9", or "ended": the program ended
@@ -37,6 +37,11 @@ struct RunRecord {
   /// Bytes of frames.csv and schemes.csv that hold these frames. Incomplete rows follow them.
   uint64_t frames_bytes = 0, schemes_bytes = 0;
 
+  /// Sets the sums to zero, in the first form with the schemes and the burst of a new run.
+  void begin_sums(const RunOptions& options);
+  void begin_sums();
+  /// Adds a frame to the sums, unless it is warmup.
+  void add_to_sums(const FrameStatistics& frame);
   /// How many of `frames` are presented. The others are targets.
   uint64_t presented_frames() const {
     return static_cast<uint64_t>(
