@@ -32,8 +32,8 @@ inline bool has_dcp_structures(const std::string& spec) {
   return info != nullptr && info->has_dcp_structures;
 }
 
-/// Share of DRAM energy that a scheme saves at a rate above 0 (spec §9). Nothing for schemes without DCP's
-/// structures.
+/// Share of DRAM energy that a scheme saves at a rate above 0 (paper §Energy Savings). Nothing for schemes
+/// without DCP's structures.
 inline std::optional<double> scheme_saving(const std::string& spec, double rate,
                                            const CostConstants& constants = {}) {
   if (!has_dcp_structures(spec)) return std::nullopt;
@@ -43,8 +43,9 @@ inline std::optional<double> scheme_saving(const std::string& spec, double rate,
 /// Whether the scheme has more or fewer entries than those whose energy the paper states: figures of it say
 /// so.
 inline bool has_other_entries(const std::string& spec) {
+  if (!has_dcp_structures(spec)) return false;
   const auto parsed = parse_scheme(spec);
-  return has_dcp_structures(spec) && parsed && parsed->number("fvc") != CostConstants{}.table_entries;
+  return parsed && parsed->number("fvc") != CostConstants{}.table_entries;
 }
 
 }  // namespace tilepress

@@ -108,7 +108,7 @@ def check_cost():
     assert "amddcc, lcc: not known\n" in text, text
     assert "saves 64.4 %" in text and "199.6 mW is" in text and "swapped" not in text and "264 bytes" in text, text
     assert "in the structures, 2 passes" in text, text
-    # The paper's 4.83 pJ hold for 64 entries (spec §9).
+    # The paper's 4.83 pJ hold for 64 entries.
     for words, says in ((["--fvc", "512"], True), (["--fvc", "512", "--structures-pj", "9"], False), ([], False)):
         assert (" (as with 64 entries: not scaled), 2 passes" in run("cost", *words).stdout.decode()) == says, words
         assert json.loads(run("cost", "--json", *words).stdout)["energy_is_not_scaled"] == says, words
