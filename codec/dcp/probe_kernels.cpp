@@ -51,7 +51,9 @@ Smallest find_smallest(const uint32_t* counts, uint32_t stride) {
   return found;
 }
 
-uint64_t compact(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out) {
+}  // namespace
+
+uint64_t compact_plainly(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out) {
   uint64_t alike = 0;
   for (uint32_t count = 0; mask != 0; mask &= mask - 1, ++count) {
     out[count] = pixels[std::countr_zero(mask)];
@@ -61,12 +63,10 @@ uint64_t compact(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_
   return alike;
 }
 
-}  // namespace
-
 constexpr ProbeKernels kPlainProbeKernels = {.find = find,
                                              .find_few = find_few,
                                              .members = members,
                                              .find_smallest = find_smallest,
-                                             .compact = compact};
+                                             .compact = compact_plainly};
 
 }  // namespace tilepress

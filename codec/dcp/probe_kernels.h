@@ -35,9 +35,10 @@ struct ProbeKernels {
   uint64_t (*compact)(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out);
 };
 
-#if defined(__x86_64__)
 /// See ProbeKernels::compact.
-uint64_t compact_by_vbmi(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out);
+uint64_t compact_plainly(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out);
+#if defined(__x86_64__)
+uint64_t compact_by_avx512(const uint32_t* pixels, uint64_t mask, uint32_t before, uint32_t* out);
 #endif
 extern const ProbeKernels kPlainProbeKernels;
 extern const KernelSets<ProbeKernels> kProbeKernelSets;

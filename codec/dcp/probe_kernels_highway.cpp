@@ -11,14 +11,6 @@
 #if TILEPRESS_HAS_SIMD
 TILEPRESS_HIGHWAY_BEGIN
 
-/// The mask of the lowest bits, one per lane.
-HWY_INLINE auto MaskOf(const Words& d, uint64_t bits) {
-  bits &= (uint64_t{1} << hn::Lanes(d)) - 1;
-  uint8_t bytes[8];
-  __builtin_memcpy(bytes, &bits, 8);
-  return hn::LoadMaskBits(d, bytes);
-}
-
 /// Takes the indices of a block in order, some lanes at a time, and returns the widths of its sub-blocks.
 class Indices {
  public:
@@ -133,46 +125,26 @@ Smallest FindSmallest(const uint32_t* HWY_RESTRICT counts, uint32_t stride) {
   return found;
 }
 
-uint64_t Compact(const uint32_t* HWY_RESTRICT pixels, uint64_t mask, uint32_t before,
-                 uint32_t* HWY_RESTRICT out) {
-  const Words d;
-  uint32_t count = 0;
-  for (size_t i = 0; i < kBlockPixels; i += hn::Lanes(d)) {
-    hn::StoreU(hn::Compress(hn::LoadU(d, pixels + i), MaskOf(d, mask >> i)), d, out + count);
-    count += static_cast<uint32_t>(__builtin_popcountll(mask >> i & ((uint64_t{1} << hn::Lanes(d)) - 1)));
-  }
-  if (count == 0) return 0;
-  uint64_t alike = out[0] == before;
-  for (size_t i = 1; i < count; i += hn::Lanes(d)) {
-    alike |= BitsOf(d, hn::Eq(hn::LoadU(d, out + i), hn::LoadU(d, out + i - 1))) << i;
-  }
-  return count == 64 ? alike : alike & ((uint64_t{1} << count) - 1);
-}
+#if HWY_TARGET == HWY_AVX3
+constexpr auto kCompact = compact_by_avx512;
+#else
+constexpr auto kCompact = compact_plainly;
+#endif
 
-constexpr ProbeKernels kProbeKernels = {
-    .find = Find, .find_few = FindFew, .members = Members, .find_smallest = FindSmallest, .compact = Compact};
+constexpr ProbeKernels kProbeKernels = {.find = Find,
+                                        .find_few = FindFew,
+                                        .members = Members,
+                                        .find_smallest = FindSmallest,
+                                        .compact = kCompact};
 
 TILEPRESS_HIGHWAY_END
 #endif
 
 #if HWY_ONCE
 namespace tilepress {
-namespace {
 
-#if defined(__x86_64__)
-constexpr ProbeKernels kVbmiProbeKernels = [] {
-  ProbeKernels kernels = TILEPRESS_AVX512_OR(kPlainProbeKernels, kProbeKernels);
-  kernels.compact = compact_by_vbmi;
-  return kernels;
-}();
-#else
-constexpr const ProbeKernels& kVbmiProbeKernels = kPlainProbeKernels;
-#endif
-
-}  // namespace
-
-constexpr KernelSets<ProbeKernels> kProbeKernelSets =
-    TILEPRESS_KERNEL_SETS(kPlainProbeKernels, kProbeKernels, kVbmiProbeKernels);
+constexpr KernelSets<ProbeKernels> kProbeKernelSets = TILEPRESS_KERNEL_SETS(
+    kPlainProbeKernels, kProbeKernels, TILEPRESS_AVX512_OR(kPlainProbeKernels, kProbeKernels));
 
 }  // namespace tilepress
 #endif
