@@ -5,8 +5,8 @@
 
 #include <cstring>
 
-#include "run/whole_file.h"
 #include "tilepress/plane.h"
+#include "tilepress/whole_file.h"
 
 namespace tilepress {
 namespace {

@@ -8,9 +8,9 @@
 #include <cstring>
 #include <fstream>
 
-#include "run/whole_file.h"
 #include "tilepress/block.h"
 #include "tilepress/plane.h"
+#include "tilepress/whole_file.h"
 
 namespace tilepress {
 namespace {

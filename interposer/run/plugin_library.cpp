@@ -8,8 +8,8 @@
 #include <atomic>
 #include <filesystem>
 
-#include "run/whole_file.h"
 #include "tilepress/plugin_scheme.h"
+#include "tilepress/whole_file.h"
 
 namespace tilepress {
 namespace {

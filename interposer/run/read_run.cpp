@@ -7,13 +7,13 @@
 #include <map>
 
 #include "run/run_json.h"
-#include "run/whole_file.h"
 #include "tilepress/csv_rows.h"
 #include "tilepress/live_page.h"
 #include "tilepress/live_picture.h"
 #include "tilepress/run_folder.h"
 #include "tilepress/scheme.h"
 #include "tilepress/statistics_rows.h"
+#include "tilepress/whole_file.h"
 
 namespace tilepress {
 namespace {

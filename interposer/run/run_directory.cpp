@@ -4,9 +4,10 @@
 #include <filesystem>
 
 #include "run/run_json.h"
-#include "run/whole_file.h"
 #include "system_calls.h"
 #include "tilepress/statistics_rows.h"
+#include "tilepress/utc_time.h"
+#include "tilepress/whole_file.h"
 
 namespace tilepress {
 

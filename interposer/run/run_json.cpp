@@ -11,6 +11,7 @@
 
 #include "tilepress/cost_model.h"
 #include "tilepress/run_option_table.h"
+#include "tilepress/utc_time.h"
 
 namespace tilepress {
 namespace {

@@ -20,7 +20,4 @@ Result<void> read_run_json(std::string_view text, RunRecord& record);
 /// `text` is no JSON.
 std::string finished_run_json(std::string_view text, const RunRecord& record, const RunEnd& end);
 
-/// The current time in UTC, ISO 8601, in seconds.
-std::string utc_now();
-
 }  // namespace tilepress

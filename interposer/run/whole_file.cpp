@@ -1,5 +1,5 @@
 // Whole file: plain calls of the system, because standard streams lose the reason of a failure.
-#include "run/whole_file.h"
+#include "tilepress/whole_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -30,14 +30,12 @@ static std::string scheme_chart(const Batch& batch, size_t index) {
 }
 
 Section coverage_section(const Batch& batch) {
-  Section out{.id = "coverage", .heading = "Rate against FVC coverage"};
+  Section out{.heading = "Rate against FVC coverage"};
   out.note =
       "One point per workload: the mean FVC coverage of its frames, and its rate. The dashed line is the "
       "paper's coverage threshold of 0.7.";
   Table& table = out.table;
-  table.id = "table-coverage";
-  table.caption = "FVC coverage and rates";
-  table.header = {"workload", "fvc_coverage"};
+  table = {.name = "coverage", .caption = "FVC coverage and rates", .header = {"workload", "fvc_coverage"}};
   const std::string chosen =
       batch.color_of("vdcp", batch.schemes.size()) < batch.schemes.size() ? "vdcp" : batch.baseline;
   std::string pick = "<label class=\"pick\">Scheme <select data-swap=\"coverage\">";

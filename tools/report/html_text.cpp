@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "tilepress/csv_table.h"
@@ -18,31 +19,20 @@ static std::string heading_of(std::string name) {
   return escape_html(name);
 }
 
-std::string escape_html(std::string_view text) {
+std::string replaced(std::string_view text,
+                     std::initializer_list<std::pair<std::string_view, std::string_view>> list) {
   std::string out;
-  out.reserve(text.size());
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
+  while (!text.empty()) {
+    const auto found =
+        std::ranges::find_if(list, [&](const auto& entry) { return text.starts_with(entry.first); });
+    out += found == list.end() ? text.substr(0, 1) : found->second;
+    text.remove_prefix(found == list.end() ? 1 : found->first.size());
   }
   return out;
+}
+
+std::string escape_html(std::string_view text) {
+  return replaced(text, {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}});
 }
 
 std::string escape_json(std::string_view text) {
@@ -58,13 +48,10 @@ std::string escape_json(std::string_view text) {
   return out;
 }
 
-std::string file_slug(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '.' || c == '-' || c == '_';
-    out += plain ? c : '_';
-  }
+std::string file_slug(std::string_view text, std::string_view kept) {
+  std::string out(text);
+  for (char& c : out)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && kept.find(c) == kept.npos) c = '_';
   return out.empty() ? "run" : out;
 }
 
@@ -94,21 +81,29 @@ std::string fill_slots(std::string_view pattern,
 }
 
 Cell text_cell(std::string_view text) {
-  return {escape_html(text), std::string(text)};
+  return {std::string(text), std::string(text)};
 }
 Cell count_cell(uint64_t count) {
-  return {std::to_string(count), std::to_string(count)};
+  return text_cell(std::to_string(count));
 }
 Cell number_cell(double value) {
-  return {shown_number(value), std::isnan(value) ? "" : csv_number(value)};
+  return {shown_number(value), exact_cell(value).exact};
+}
+Cell exact_cell(double value) {
+  return text_cell(std::isfinite(value) ? csv_number(value) : "");
 }
 Cell percent_cell(double share) {
-  return {shown_percent(share), std::isnan(share) ? "" : csv_number(share)};
+  return {shown_percent(share), exact_cell(share).exact};
+}
+
+bool Table::wraps(size_t column) const {
+  return std::find(wrapped.begin(), wrapped.end(), column) != wrapped.end();
 }
 
 std::string table_html(const Table& table) {
-  std::string out = fmt::format("<div class=\"scroll\" tabindex=\"0\"><table class=\"figures{}\" id=\"{}\">",
-                                table.header.size() > kDenseColumns ? " dense" : "", table.id);
+  std::string out =
+      fmt::format("<div class=\"scroll\" tabindex=\"0\"><table class=\"figures{}\" id=\"table-{}\">",
+                  table.header.size() > kDenseColumns ? " dense" : "", table.name);
   out += "<caption>" + escape_html(table.caption) + "</caption>\n<thead><tr>";
   for (size_t i = 0; i < table.header.size(); ++i)
     out += fmt::format("<th scope=\"col\"{} data-v=\"{}\">{}</th>",
@@ -119,20 +114,23 @@ std::string table_html(const Table& table) {
     out += "<tr>";
     for (size_t i = 0; i < row.size(); ++i) {
       const char* tag = i == 0 ? "th" : "td";
+      std::string html = row[i].html.empty() ? escape_html(row[i].shown) : row[i].html;
+      if (table.wraps(i) && !html.empty()) html = "<span class=\"wrap\">" + html + "</span>";
       // Narrow screens do not show the header row: each cell names its column.
       out += fmt::format("<{}{}{} data-h=\"{}\" data-v=\"{}\">{}</{}>", tag, i == 0 ? " scope=\"row\"" : "",
                          i < table.text_columns ? " class=\"text\"" : "", heading_of(table.header[i]),
-                         escape_html(row[i].exact), row[i].html, tag);
+                         escape_html(row[i].exact), html, tag);
     }
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }
 
-std::string csv_button(std::string_view table_id, std::string_view file) {
+std::string csv_button(std::string_view table_name, std::string_view file) {
   return fmt::format(
-      "<button type=\"button\" class=\"save\" data-table=\"{}\" data-file=\"{}\">Download CSV</button>\n",
-      table_id, escape_html(file));
+      "<button type=\"button\" class=\"save\" data-table=\"table-{}\" data-file=\"{}\">Download "
+      "CSV</button>\n",
+      table_name, escape_html(file));
 }
 
 }  // namespace tilepress

@@ -47,13 +47,11 @@ Section own_columns_section(const Batch& batch, const SchemeInfo& info) {
   const std::string names = fmt::format("{}", fmt::join(info.columns, " and "));
   // Blocks by coder are shares of a whole; other counts have no common unit.
   const bool by_coder = std::all_of(info.columns.begin(), info.columns.end(), coder_of);
-  Section out{.id = info.family, .heading = fmt::format("{}: columns of its own", info.label)};
-  if (by_coder) out.heading = fmt::format("{}: blocks by coder", info.label);
+  Section out{.heading =
+                  fmt::format("{}: {}", info.label, by_coder ? "blocks by coder" : "columns of its own")};
   out.note = escape_html(fmt::format("Sums of the columns {} of schemes.csv.", names));
-  out.table.id = "table-" + out.id;
-  out.table.caption = out.heading;
-  out.table.header = {"workload", "category"};
-  out.table.text_columns = 2;
+  out.table = {
+      .name = info.family, .caption = out.heading, .header = {"workload", "category"}, .text_columns = 2};
   for (const char* column : info.columns) out.table.header.push_back(column);
   std::vector<KeyEntry> key;
   for (size_t i = 0; by_coder && i < info.columns.size(); ++i) {

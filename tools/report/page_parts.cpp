@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "counted.h"
 #include "scheme_names.h"
 
 namespace tilepress {
@@ -83,18 +84,24 @@ std::string category_label(const std::string& category) {
 }
 
 std::string section_html(const Section& section) {
-  std::string out =
-      fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", section.id, escape_html(section.heading));
+  const std::string& name = section.table.name;
+  std::string out = fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", name, escape_html(section.heading));
   if (!section.note.empty()) out += "<p class=\"note\">" + section.note + "</p>\n";
   if (!section.chart.empty()) out += "<div class=\"chart\">\n" + section.chart + "</div>\n";
-  const std::string button = csv_button(section.table.id, section.id + ".csv");
-  if (section.chart.empty()) {
-    out += table_html(section.table) + "<div class=\"tools\">" + button + "</div>\n";
-  } else {
-    out += "<div class=\"tools\">" + button + "</div>\n<details><summary>The same as a table</summary>\n" +
-           table_html(section.table) + "</details>\n";
-  }
+  const std::string tools = "<div class=\"tools\">" + csv_button(name, name + ".csv") + "</div>\n";
+  const auto folded = [&](const std::string& summary) {
+    return "<details><summary>" + summary + "</summary>\n" + table_html(section.table) + "</details>\n";
+  };
+  if (!section.chart.empty())
+    out += tools + folded("The same as a table");
+  else
+    out += (section.folded ? folded(counted(section.table.rows.size(), "row")) : table_html(section.table)) +
+           tools;
   return out + "</section>\n";
+}
+
+std::string section_link(const std::string& id, const std::string& heading) {
+  return fmt::format("<a href=\"#{}\">{}</a>\n", escape_html(id), escape_html(heading));
 }
 
 }  // namespace tilepress

@@ -35,12 +35,15 @@ void arrange_batch(Batch& batch);
 /// Label of a category: "UI", or "no category" for "".
 std::string category_label(const std::string& category);
 struct Section {
-  std::string id{}, heading{};
+  std::string heading{};
   std::string note{};   ///< HTML
   std::string chart{};  ///< HTML; empty: no chart
-  Table table{};        ///< the chart's figures
+  Table table{};        ///< the chart's figures; its name is the section's id
+  bool folded = false;  ///< a table without a chart is folded
 };
 std::string section_html(const Section& section);
+/// The link to a section at the top of the page.
+std::string section_link(const std::string& id, const std::string& heading);
 
 /// The section with one part per run.
 std::string run_parts(const Batch& batch);

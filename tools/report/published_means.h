@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <string_view>
 
 namespace tilepress {
@@ -42,6 +43,13 @@ inline bool same_category(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
   });
+}
+
+/// NaN if the paper prints no saving of the scheme in the category.
+inline double published_saving(std::string_view scheme, std::string_view category) {
+  for (const PublishedSaving& figure : kPublishedSavings)
+    if (scheme == figure.scheme && same_category(figure.category, category)) return figure.saving;
+  return NAN;
 }
 
 }  // namespace tilepress

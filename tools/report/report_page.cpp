@@ -4,31 +4,22 @@
 #include <fmt/format.h>
 
 #include "counted.h"
-#include "page_assets.h"
 #include "scheme_names.h"
 #include "sections.h"
 
 namespace tilepress {
+
+// The files of the page, embedded at build time.
+extern const std::string_view kPageTemplate, kPageStyle, kPageScript, kUplotScript, kUplotStyle,
+    kUplotLicence;
+
 namespace {
 
 std::string series_json(const Batch& batch) {
   std::string out = "[";
-  for (const RunSummary& run : batch.runs) {
-    out +=
-        fmt::format("{}\n{{\"name\":\"{}\",\"surfaces\":[", out.size() > 1 ? "," : "", escape_json(run.name));
-    bool first = true;
-    for (const SurfacePlots& surface : run.surfaces) {
-      if (surface.plots.empty()) continue;
-      out += fmt::format("{}{{\"label\":\"{}\",\"plots\":[", first ? "" : ",", escape_json(surface.label));
-      first = false;
-      for (size_t i = 0; i < surface.plots.size(); ++i) {
-        out += i > 0 ? "," : "";
-        out += line_plot_json(surface.plots[i]);
-      }
-      out += "]}";
-    }
-    out += "]}";
-  }
+  for (const RunSummary& run : batch.runs)
+    out += fmt::format("{}\n{{\"name\":\"{}\",\"surfaces\":{}}}", out.size() > 1 ? "," : "",
+                       escape_json(run.name), surfaces_json(run.surfaces));
   return out + "]";
 }
 
@@ -66,41 +57,46 @@ std::vector<Section> page_sections(const Batch& batch) {
   return out;
 }
 
+std::string page_html(std::map<std::string, std::string, std::less<>> slots) {
+  slots["uplot_style"] = kUplotStyle;
+  slots["uplot_script"] = kUplotScript;
+  slots["uplot_licence"] = kUplotLicence;
+  slots["style"] = kPageStyle;
+  slots["script"] = kPageScript;
+  std::string& footer = slots["footer"];
+  footer = "<p>" + footer + " The line charts use uPlot 1.6.32 (MIT licence, text in the page's source).</p>";
+  return fill_slots(kPageTemplate, slots);
+}
+
 std::string report_page(const Batch& batch, const std::string& title) {
   std::string nav, sections;
   const auto add_runs = [&] {
-    nav += "<a href=\"#runs\">Run by run</a>\n";
+    nav += section_link("runs", "Run by run");
     sections += run_parts(batch);
   };
   // The frames come first on the page of a single run, the comparison on the page of a batch.
   const bool single = batch.runs.size() == 1;
   const std::vector<Section> all = page_sections(batch);
   for (const Section& section : all) {
-    nav += fmt::format("<a href=\"#{}\">{}</a>\n", section.id, escape_html(section.heading));
+    nav += section_link(section.table.name, section.heading);
     sections += section_html(section);
     if (single && &section == &all.front()) add_runs();
   }
   if (!single) add_runs();
-  const std::string footer = fmt::format(
-      "<p>Made by tilepress {} from frames.csv, schemes.csv and run.json of the runs above. Each value in a "
-      "table is a cell of those files, a sum of such cells, or follows from them by the formula beside it. "
-      "The CSV downloads have full precision. The line charts use uPlot 1.6.32 (MIT licence, text in the "
-      "page's source).</p>",
-      TILEPRESS_VERSION);
-  return fill_slots(kPageTemplate, {{"version", TILEPRESS_VERSION},
-                                    {"title", escape_html(title)},
-                                    {"lead", escape_html(lead_text(batch))},
-                                    {"uplot_style", std::string(kUplotStyle)},
-                                    {"uplot_script", std::string(kUplotScript)},
-                                    {"uplot_licence", std::string(kUplotLicence)},
-                                    {"style", std::string(kPageStyle)},
-                                    {"script", std::string(kPageScript)},
-                                    {"markers", marker_definitions() + "<linearGradient id=\"heat-scale\">" +
-                                                    heat_scale_stops() + "</linearGradient>"},
-                                    {"nav", nav},
-                                    {"sections", sections},
-                                    {"series", series_json(batch)},
-                                    {"footer", footer}});
+  return page_html(
+      {{"version", TILEPRESS_VERSION},
+       {"title", escape_html(title)},
+       {"lead", escape_html(lead_text(batch))},
+       {"markers", marker_definitions() + "<linearGradient id=\"heat-scale\">" + heat_scale_stops() +
+                       "</linearGradient>"},
+       {"nav", nav},
+       {"sections", sections},
+       {"series", series_json(batch)},
+       {"footer",
+        "Made by tilepress " TILEPRESS_VERSION
+        " from frames.csv, schemes.csv and run.json of the runs above. Each value in a table is a cell of "
+        "those files, a sum of such cells, or follows from them by the formula beside it. The CSV downloads "
+        "have full precision."}});
 }
 
 }  // namespace tilepress

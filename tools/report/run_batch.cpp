@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "input_kind.h"
+#include "tilepress/whole_file.h"
 #include "way_out.h"
 
 namespace tilepress {
@@ -48,11 +48,10 @@ std::string folder_name(const std::string& path) {
 
 /// The name that --name gave the run, or that of its folder.
 std::string plain_name(const std::string& path) {
-  std::ifstream file(path + "/run.json");
-  const auto json = nlohmann::json::parse(file, nullptr, false);
-  if (json.is_object() && json.contains("name") && json["name"].is_string() && json["name"] != "")
-    return json["name"].get<std::string>();
-  return without_pid(folder_name(path));
+  const auto json = run_document(path);
+  const auto name = json.find("name");
+  const bool named = name != json.end() && name->is_string() && *name != "";
+  return named ? name->get<std::string>() : without_pid(folder_name(path));
 }
 
 }  // namespace
@@ -87,6 +86,12 @@ Result<std::vector<BatchEntry>> find_runs(const std::vector<std::string>& paths)
       entries.push_back({found[i], folder_count[folder] == 1 ? folder : found[i]});
   }
   return entries;
+}
+
+nlohmann::json run_document(const std::string& path) {
+  const auto text = read_whole_file(path + "/run.json");
+  auto json = nlohmann::json::parse(text ? *text : "", nullptr, false);
+  return json.is_object() ? json : nlohmann::json::object();
 }
 
 std::vector<std::string> names_of(const std::vector<BatchEntry>& entries) {

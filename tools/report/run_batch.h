@@ -1,6 +1,7 @@
 // Run batch: finds the runs below the paths that a user names, and names their workloads.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct BatchEntry {
 Result<std::vector<BatchEntry>> find_runs(const std::vector<std::string>& paths);
 
 std::vector<std::string> names_of(const std::vector<BatchEntry>& entries);
+
+/// run.json of the run in folder `path`. An empty object without the file, or if it is damaged.
+nlohmann::json run_document(const std::string& path);
 
 /// The workload's category ("UI", "2D", "3D", …) in run.json; empty if there is none.
 std::string workload_category(const RunRecord& run);

@@ -8,12 +8,11 @@ namespace tilepress {
 namespace {
 
 Table totals_table(const RunSummary& run, size_t index) {
-  Table table;
-  table.id = fmt::format("table-run-{}", index);
-  table.caption =
-      fmt::format("Sums over {}, without warm-up frames", counted(run.measured, "measured frame"));
-  table.header = {"scheme",   "blocks",       "raw_bits",     "payload_bits", "bursts",
-                  "csb_bits", "palette_bits", "rate_payload", "rate"};
+  Table table{
+      .name = fmt::format("run-{}", index),
+      .caption = fmt::format("Sums over {}, without warm-up frames", counted(run.measured, "measured frame")),
+      .header = {"scheme", "blocks", "raw_bits", "payload_bits", "bursts", "csb_bits", "palette_bits",
+                 "rate_payload", "rate"}};
   for (size_t i = 0; i < run.schemes.size(); ++i) {
     const SchemeStatistics& sum = run.totals[i];
     table.rows.push_back({text_cell(run.schemes[i]), count_cell(sum.blocks), count_cell(sum.raw_bits),
@@ -74,7 +73,7 @@ std::string run_parts(const Batch& batch) {
     out += "</dl>\n";
     const Table table = totals_table(run, i);
     out += table_html(table) + "<div class=\"tools\">" +
-           csv_button(table.id, file_slug(run.name) + "-totals.csv") + "</div>\n";
+           csv_button(table.name, file_slug(run.name) + "-totals.csv") + "</div>\n";
     if (run.measured == 0)
       out += "<p class=\"warn\">This run has no measured frame and no chart.</p>\n";
     out += "<div class=\"line-charts\"></div>\n" + pictures_html(run) + "</section>\n";

@@ -98,6 +98,12 @@ RunSummary summarise_run(const RunRecord& run, const std::string& name, size_t p
   return out;
 }
 
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
 double harmonic_mean(const std::vector<double>& values) {
   double inverse = 0, count = 0;
   for (const double value : values) {

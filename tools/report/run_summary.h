@@ -1,7 +1,6 @@
 // Run summary: what the report keeps of one run.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -40,6 +39,9 @@ struct RunSummary {
 
 /// Adds up the run. `point_budget`: the most values in all its line charts together.
 RunSummary summarise_run(const RunRecord& run, const std::string& name, size_t point_budget);
+
+/// Precondition: there are values.
+double median(std::vector<double> values);
 
 /// Count / Σ (1 / value). Skips values that are NaN or not positive. NaN if no value is left.
 double harmonic_mean(const std::vector<double>& values);

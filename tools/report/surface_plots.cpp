@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
 
 #include "counted.h"
+#include "html_text.h"
 #include "tilepress/color_cdf.h"
 #include "tilepress/csv_rows.h"
+#include "tilepress/whole_file.h"
 
 namespace tilepress {
 namespace {
@@ -91,9 +92,9 @@ using Curves = std::map<uint64_t, Curve>;
 
 /// Reads the drawn ranks of every frame, by surface. Empty without the file, or for a file of another kind.
 std::map<uint32_t, Curves> read_curves(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(file), {});
-  CsvRecords records(text);
+  const auto text = read_whole_file(path);
+  if (!text) return {};
+  CsvRecords records(*text);
   const CsvRowReader<ColorCdfRow> reader(records, color_cdf_columns());
   std::map<uint32_t, Curves> surfaces;
   RankChoice choice;
@@ -144,6 +145,19 @@ LinePlot cdf_plot_of(const Curves& frames) {
 }
 
 }  // namespace
+
+std::string surfaces_json(const std::vector<SurfacePlots>& surfaces) {
+  std::string out = "[";
+  for (const SurfacePlots& surface : surfaces) {
+    if (surface.plots.empty()) continue;
+    out += fmt::format("{}{{\"label\":\"{}\",\"plots\":[", out.size() > 1 ? "," : "",
+                       escape_json(surface.label));
+    for (size_t i = 0; i < surface.plots.size(); ++i)
+      out.append(i > 0 ? "," : "").append(line_plot_json(surface.plots[i]));
+    out += "]}";
+  }
+  return out + "]";
+}
 
 SurfacePlots plot_surface(const RunRecord& run, const std::string& slug, const Frames& frames,
                           size_t max_points) {

@@ -16,6 +16,9 @@ struct SurfacePlots {
   std::vector<LinePlot> plots;
 };
 
+/// The charts as a JSON list for the page's script. Surfaces without plots are left out.
+std::string surfaces_json(const std::vector<SurfacePlots>& surfaces);
+
 /// Rates, changes and colours over the surface's `frames`, which are not empty. Each line has at most
 /// `max_points` values. `slug`: start of the names of CSV downloads.
 SurfacePlots plot_surface(const RunRecord& run, const std::string& slug,

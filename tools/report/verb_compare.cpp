@@ -8,7 +8,6 @@
 #include "command_line.h"
 #include "common_options.h"
 #include "report/compare/comparison_text.h"
-#include "report/compare/option_differences.h"
 #include "report/compare/regressions.h"
 #include "report/run_batch.h"
 #include "streams/output_file.h"
@@ -100,7 +99,6 @@ Result<void> compare_pairs(const RunPairs& found, const CompareOptions& options,
     if (const auto checked = check_map(options.map, *record_b, &SchemePair::b); !checked) return checked;
     RunComparison run = compare_runs(*record_a, *record_b, options.frames, options.map);
     run.name = a.name;
-    run.options = option_differences(a.path, b.path);
     runs.push_back(std::move(run));
   }
   return {};

@@ -1,8 +1,4 @@
 // tilepress export: runs in the formats of other tools.
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -12,17 +8,11 @@
 #include "report/run_batch.h"
 #include "streams/output_file.h"
 #include "tilepress/csv_rows.h"
+#include "tilepress/whole_file.h"
 #include "verb.h"
 
 namespace tilepress {
 namespace {
-
-Result<std::string> read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file.is_open() || file.bad()) return Error{ErrorKind::kFile, path + ": " + std::strerror(errno)};
-  return text;
-}
 
 std::string json_text(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -30,26 +20,13 @@ std::string json_text(const std::string& text) {
 
 /// True if `text` is a number as JSON writes them: no leading zero, no leading plus, no "nan".
 bool is_json_number(const std::string& text) {
-  size_t i = !text.empty() && text[0] == '-' ? 1 : 0;
-  const auto digits = [&] {
-    const size_t begin = i;
-    while (i < text.size() && text[i] >= '0' && text[i] <= '9') ++i;
-    return i - begin;
-  };
-  const size_t first = i;
-  const size_t whole = digits();
-  if (whole == 0 || (whole > 1 && text[first] == '0')) return false;
-  if (i < text.size() && text[i] == '.' && (++i, digits() == 0)) return false;
-  if (i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
-    ++i;
-    if (i < text.size() && (text[i] == '+' || text[i] == '-')) ++i;
-    if (digits() == 0) return false;
-  }
-  return i == text.size();
+  constexpr std::string_view kDigits = "0123456789";
+  return !text.empty() && (text[0] == '-' || kDigits.find(text[0]) != kDigits.npos) &&
+         kDigits.find(text.back()) != kDigits.npos && nlohmann::json::accept(text);
 }
 
 Result<void> write_rows(const std::string& file, const std::string& start, OutputFile& out) {
-  const auto text = read_text(file);
+  const auto text = read_whole_file(file);
   if (!text) return text.error();
   CsvReader reader(*text);
   std::vector<std::string> header, fields;
@@ -75,7 +52,7 @@ Result<void> write_rows(const std::string& file, const std::string& start, Outpu
 Result<void> write_row_lines(const std::string& path, const std::string& name, OutputFile& out) {
   const std::string run = ",\"run\":" + json_text(name);
   // A run whose run.json is missing or was cut off by a crash still has its rows.
-  if (const auto text = read_text(path + "/run.json")) {
+  if (const auto text = read_whole_file(path + "/run.json")) {
     const auto json = nlohmann::ordered_json::parse(*text, nullptr, false);
     if (json.is_object()) {
       nlohmann::ordered_json line = {{"type", "run"}, {"run", name}};

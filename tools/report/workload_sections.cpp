@@ -15,18 +15,18 @@ static std::string run_link(const Batch& batch, const RunSummary& run) {
 }
 
 Section workloads_section(const Batch& batch) {
-  Section out{.id = "workloads", .heading = "Workloads"};
+  Section out{.heading = "Workloads"};
   out.note =
       "Rates are Σ raw bits / Σ moved bits over the frames of a run. Metrics are means over its frames. "
       "Warm-up frames (the first frame of each surface) are in neither.";
-  out.table.id = "table-workloads";
-  out.table.caption = "One row per run";
-  out.table.text_columns = 2;
-  out.table.header = {"workload", "category",     "frames",       "measured",    "unique_colors",
-                      "entropy",  "pixel_change", "color_change", "fvc_coverage"};
+  out.table = {.name = "workloads",
+               .caption = "One row per run",
+               .header = {"workload", "category", "frames", "measured", "unique_colors", "entropy",
+                          "pixel_change", "color_change", "fvc_coverage"},
+               .text_columns = 2};
   for (const std::string& scheme : batch.schemes) out.table.header.push_back("rate " + scheme);
   for (const RunSummary& run : batch.runs) {
-    std::vector<Cell> row = {{run_link(batch, run), run.name},
+    std::vector<Cell> row = {{run.name, run.name, run_link(batch, run)},
                              text_cell(run.category),
                              count_cell(run.frames),
                              count_cell(run.measured),
@@ -43,7 +43,6 @@ Section workloads_section(const Batch& batch) {
 
 Section rates_section(const Batch& batch, const std::vector<std::string>& schemes, bool with_bursts) {
   Section out;
-  out.id = with_bursts ? "rates" : "rates-payload";
   out.heading = with_bursts ? "Rate per workload" : "Rate per workload, DCP schemes without bursts";
   const std::string formula =
       with_bursts ? "Σ raw / Σ (bursts · burst bits + CSB + palette bits)" : "Σ raw / Σ (payload + CSB bits)";
@@ -51,10 +50,10 @@ Section rates_section(const Batch& batch, const std::vector<std::string>& scheme
              ". Workloads have the paper's order: by category, and within a category by the rate of " +
              escape_html(batch.baseline) + " without bursts, smallest first.";
   Table& table = out.table;
-  table.id = "table-" + out.id;
-  table.caption = out.heading;
-  table.header = {"workload", "category"};
-  table.text_columns = 2;
+  table = {.name = with_bursts ? "rates" : "rates-payload",
+           .caption = out.heading,
+           .header = {"workload", "category"},
+           .text_columns = 2};
   std::vector<KeyEntry> key;
   for (const std::string& scheme : schemes) {
     table.header.push_back(scheme);

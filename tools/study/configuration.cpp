@@ -2,7 +2,6 @@
 #include "configuration.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include "tilepress/csv_table.h"
 #include "tilepress/scheme.h"
@@ -47,6 +46,15 @@ void for_each_key(const SchemeSpec& spec, const Visit& visit) {
     if (info->keys[i].kind != KeyKind::kFile) visit(info->keys[i], spec.values[i].second);
 }
 
+std::vector<std::string_view> all_key_names() {
+  std::vector<std::string_view> names;
+  for (const SchemeInfo& info : scheme_registry())
+    for (const SchemeKey& key : info.keys)
+      if (key.kind != KeyKind::kFile && std::ranges::find(names, key.name) == names.end())
+        names.emplace_back(key.name);
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string_view, std::string>> key_values(const SchemeSpec& spec) {
@@ -66,6 +74,23 @@ std::string canonical_text(const SchemeSpec& spec) {
     out.append(key.name).append("=").append(value_text(key, value));
   });
   return out;
+}
+
+std::string configuration_header() {
+  std::string out = "configuration,scheme";
+  for (const std::string_view name : all_key_names()) out.append(",").append(name);
+  return out;
+}
+
+void append_configuration(const SchemeSpec& spec, std::string& out) {
+  append_csv(out, spec.text);
+  append_csv(out += ',', spec.name);
+  const auto values = key_values(spec);
+  for (const std::string_view name : all_key_names()) {
+    out += ',';
+    const auto value = std::ranges::find(values, name, [](const auto& known) { return known.first; });
+    if (value != values.end()) append_csv(out, value->second);
+  }
 }
 
 const std::string& ConfigurationList::add(const SchemeSpec& spec) {

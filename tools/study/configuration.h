@@ -18,6 +18,12 @@ std::vector<std::pair<std::string_view, std::string>> key_values(const SchemeSpe
 /// Two specifications with equal texts model the same. A specification that names a file keeps its own text.
 std::string canonical_text(const SchemeSpec& spec);
 
+/// The columns that name a configuration in every table of a study: "configuration,scheme,KEY,…", with the
+/// keys of all schemes of the registry, each once. Keys that name files are left out.
+std::string configuration_header();
+/// The fields of these columns. A field is empty where the scheme has no such key.
+void append_configuration(const SchemeSpec& spec, std::string& out);
+
 /// Distinct configurations in the order in which they were added.
 class ConfigurationList {
  public:

@@ -1,62 +1,46 @@
 // Frame feed: the readers of `tilepress frames`, and the frame cache.
 #include "frame_feed.h"
 
+#include <memory>
+
 #include "frames/image_frames.h"
 #include "study/cache/frame_cache.h"
 
 namespace tilepress {
-namespace {
 
-class ImageFeed : public FrameFeed {
- public:
-  Result<void> open(const std::vector<std::string>& paths) { return images_.open(paths, std::nullopt); }
-  Result<bool> next(FedFrame& out) override {
-    const auto read = images_.read(number_, image_);
-    if (!read || !*read) return read;
-    out = {.frame = number_++, .readback_ns = image_.decode_ns, .view = images_.view(image_)};
-    return true;
-  }
-
- private:
-  ImageFrames images_;
-  ImageFrame image_;
-  uint64_t number_ = 0;
-};
-
-class CacheFeed : public FrameFeed {
- public:
-  Result<void> open(const std::string& path) { return reader_.open(path); }
-  Result<bool> next(FedFrame& out) override {
-    if (number_ == reader_.frame_count()) return false;
-    const CachedFrame& header = reader_.header(number_);
-    const auto view = reader_.view(number_++);
-    if (!view) return view.error();
-    out = {header.frame, header.surface, header.time_ns, header.readback_ns, *view};
-    return true;
-  }
-
- private:
-  FrameCacheReader reader_;
-  uint64_t number_ = 0;
-};
-
-template <class Feed, class Source>
-OpenFeed opener(const Source& source) {
-  return [source]() -> Result<std::unique_ptr<FrameFeed>> {
-    auto feed = std::make_unique<Feed>();
-    if (const auto opened = feed->open(source); !opened) return opened.error();
-    return std::unique_ptr<FrameFeed>(std::move(feed));
+OpenFeed image_feed(const std::vector<std::string>& paths) {
+  struct State {
+    ImageFrames frames;
+    ImageFrame image;
+    uint64_t number = 0;
+  };
+  return [paths]() -> Result<FrameFeed> {
+    const auto state = std::make_shared<State>();
+    if (const auto opened = state->frames.open(paths, std::nullopt); !opened) return opened.error();
+    return FrameFeed([state](FedFrame& out) {
+      const auto read = state->frames.read(state->number, state->image);
+      if (read && *read)
+        out = {.frame = state->number++,
+               .readback_ns = state->image.decode_ns,
+               .view = state->frames.view(state->image)};
+      return read;
+    });
   };
 }
 
-}  // namespace
-
-OpenFeed image_feed(const std::vector<std::string>& paths) {
-  return opener<ImageFeed>(paths);
-}
-
 OpenFeed cache_feed(const std::string& path) {
-  return opener<CacheFeed>(path);
+  return [path]() -> Result<FrameFeed> {
+    const auto reader = std::make_shared<FrameCacheReader>();
+    if (const auto opened = reader->open(path); !opened) return opened.error();
+    return FrameFeed([reader, number = uint64_t{0}](FedFrame& out) mutable -> Result<bool> {
+      if (number == reader->frame_count()) return false;
+      const CachedFrame& header = reader->header(number);
+      const auto view = reader->view(number++);
+      if (!view) return view.error();
+      out = {header.frame, header.surface, header.time_ns, header.readback_ns, *view};
+      return true;
+    });
+  };
 }
 
 }  // namespace tilepress

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,16 +18,12 @@ struct FedFrame {
   SurfaceView view;  ///< valid until the next call
 };
 
-/// Not thread-safe.
-class FrameFeed {
- public:
-  virtual ~FrameFeed() = default;
-  /// Returns false after the last frame. Error texts begin with the file.
-  virtual Result<bool> next(FedFrame& out) = 0;
-};
+/// Reads the next frame. Returns false after the last frame. Error texts begin with the file. Not
+/// thread-safe.
+using FrameFeed = std::function<Result<bool>(FedFrame& out)>;
 
 /// Opens a feed at its first frame. Any thread may call it.
-using OpenFeed = std::function<Result<std::unique_ptr<FrameFeed>>()>;
+using OpenFeed = std::function<Result<FrameFeed>()>;
 
 /// Images, one movie or one animation.
 OpenFeed image_feed(const std::vector<std::string>& paths);

@@ -1,18 +1,19 @@
 // Import run: schemes.csv cut into one text per configuration.
 #include "import_run.h"
 
-#include <filesystem>
 #include <map>
 
 #include <nlohmann/json.hpp>
 
 #include "counted.h"
+#include "report/run_batch.h"
 #include "study/configuration.h"
 #include "study/result_store.h"
 #include "study/text_file.h"
 #include "tilepress/csv_rows.h"
 #include "tilepress/file_digest.h"
 #include "tilepress/run_reader.h"
+#include "tilepress/whole_file.h"
 
 namespace tilepress {
 namespace {
@@ -35,16 +36,12 @@ Result<std::map<std::string, std::string>> rows_by_scheme(const std::string& tex
 
 /// Tile and burst change rows, so that they must be those of the study.
 Result<void> check_options(const std::string& run_path, const ModelOptions& model) {
-  const auto text = read_text_file(run_path + "/run.json");
-  if (!text) return {};
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
-  const auto options = json.is_object() ? json.find("options") : json.end();
-  if (!json.is_object() || options == json.end() || !options->is_object()) return {};
+  const auto options = run_document(run_path)["options"];
   const std::pair<const char*, uint32_t> wanted[] = {{"tile", model.tile_side}, {"burst_bits", model.burst_bits},
                                                      {"burst", model.burst_bits}};
   for (const auto& [name, value] : wanted) {
-    const auto found = options->find(name);
-    if (found == options->end() || !found->is_number_unsigned() || *found == value) continue;
+    const auto found = options.find(name);
+    if (found == options.end() || !found->is_number_unsigned() || *found == value) continue;
     return Error{ErrorKind::kBadValue, "was made with " + std::string(name) + " " + found->dump() + ", not " +
                                            std::to_string(value) + " as the study"};
   }
@@ -59,7 +56,7 @@ Result<void> import_run(const Workload& workload, const StudyFile& study, const 
   const auto run = read_run(path);
   if (!run) return run.error();
   if (const auto fits = check_options(path, options.run.model); !fits) return fits;
-  const auto text = read_text_file(path + "/schemes.csv"), frames = read_text_file(path + "/frames.csv");
+  const auto text = read_whole_file(path + "/schemes.csv"), frames = read_whole_file(path + "/frames.csv");
   if (!text || !frames) return (text ? frames : text).error();
   const auto digest = sha256_of_bytes(*text);
   if (!digest) return digest.error();
@@ -74,17 +71,16 @@ Result<void> import_run(const Workload& workload, const StudyFile& study, const 
   std::map<std::string, const std::string*> known;  // by canonical text
   for (const auto& [scheme, scheme_rows] : *rows)
     if (const auto spec = parse_scheme(scheme)) known.emplace(canonical_text(*spec), &scheme_rows);
-  const ResultStore store(options.folder, options.run);
+  const ResultStore store(options.folder, options.run, workload.name, *digest);
   size_t missing = 0;
   for (const SchemeSpec& spec : study.configurations) {
     const auto found = known.find(canonical_text(spec));
     missing += found == known.end();
     if (found == known.end()) continue;
-    const auto stored = store_text_file(store.result_path(workload.name, *digest, spec), *found->second);
+    const auto stored = store_text_file(store.result_path(spec), *found->second);
     if (!stored) return stored;
   }
-  if (const auto stored = store_text_file(store.frames_path(workload.name, *digest), *frames); !stored)
-    return stored;
+  if (const auto stored = store_text_file(store.frames_path(), *frames); !stored) return stored;
   if (run->state != "finished")
     record.reason = "the run is " + run->state;
   else if (missing > 0)

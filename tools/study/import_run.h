@@ -1,9 +1,10 @@
 // Import run: the rows of a finished run as results of a study.
 #pragma once
 
+#include "study/inputs.h"
 #include "study/study_file.h"
 #include "study/study_options.h"
-#include "study/workload_record.h"
+#include "study/study_records.h"
 
 namespace tilepress {
 

@@ -15,6 +15,7 @@
 #include "images/image_kind.h"
 #include "report/category_rules.h"
 #include "report/run_batch.h"
+#include "tilepress/csv_table.h"
 #include "tilepress/run_reader.h"
 #include "tilepress/trace_summary.h"
 #include "way_out.h"
@@ -156,16 +157,12 @@ class WorkloadFinder {
   fs::path image_folder_;  ///< of the last workload, if images of this folder may join it
 };
 
-bool matches(const std::string& pattern, const std::string& name) {
-  return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-}
-
 std::string category_of(const Workload& workload, const std::vector<std::string>& rules, const StudyFile& study) {
   const std::string ruled = category_by_rules(rules, workload.name, workload.category);
   if (!ruled.empty()) return ruled;
   for (const StudyCategory& category : study.categories)
     for (const std::string& pattern : category.workloads)
-      if (matches(pattern, workload.name)) return category.name;
+      if (fnmatch(pattern.c_str(), workload.name.c_str(), 0) == 0) return category.name;
   return "other";
 }
 
@@ -173,6 +170,10 @@ std::string category_of(const Workload& workload, const std::vector<std::string>
 
 const char* name_of(WorkloadKind kind) {
   return kKindNames[static_cast<size_t>(kind)];
+}
+
+std::string subject_cells(const Workload& workload) {
+  return csv_field(workload.name) + "," + csv_field(workload.category) + ",";
 }
 
 FoundWorkloads find_workloads(const std::vector<std::string>& inputs, const std::string& trace_folder) {

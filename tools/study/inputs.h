@@ -26,6 +26,9 @@ struct Workload {
   ReplayInput trace;               ///< of kTrace: checksum and frames of a manifest
 };
 
+/// "name,category," as the first fields of a row of CSV.
+std::string subject_cells(const Workload& workload);
+
 struct FoundWorkloads {
   std::vector<Workload> list;
   std::vector<Error> faults;  ///< inputs that give no workload; the path first

@@ -1,12 +1,11 @@
 // Invocation: a JSON object.
 #include "invocation.h"
 
-#include <algorithm>
-
 #include <nlohmann/json.hpp>
 
 #include "study/text_file.h"
 #include "tilepress/run_option_table.h"
+#include "tilepress/whole_file.h"
 
 namespace tilepress {
 namespace {
@@ -62,7 +61,7 @@ Result<void> store_invocation(const StudyOptions& options, const std::string& st
 
 Result<StudyOptions> load_invocation(const std::string& folder) {
   const std::string path = folder + "/invocation.json";
-  const auto text = read_text_file(path);
+  const auto text = read_whole_file(path);
   if (!text) return Error{ErrorKind::kFile, folder + ": holds no study (no invocation.json)"};
   const auto json = nlohmann::json::parse(*text, nullptr, false);
   try {

@@ -19,8 +19,8 @@ void append_texts_of_schemes(const FrameStatistics& frame, const std::vector<std
   }
 }
 
-Result<std::optional<ModelRows>> model_frames(FrameFeed& feed, const RunOptions& options, bool with_colors,
-                                              const std::atomic<int>& stop,
+Result<std::optional<ModelRows>> model_frames(const FrameFeed& feed, const RunOptions& options,
+                                              bool with_colors, const std::atomic<int>& stop,
                                               std::atomic<uint64_t>& frames_done) {
   ModelRows rows;
   rows.schemes.assign(options.schemes.size(), schemes_csv_header());
@@ -32,7 +32,7 @@ Result<std::optional<ModelRows>> model_frames(FrameFeed& feed, const RunOptions&
   FrameStatistics statistics;
   FedFrame frame;
   while (stop == 0) {
-    const auto fed = feed.next(frame);
+    const auto fed = feed(frame);
     if (!fed) return fed.error();
     if (!*fed) {
       rows.colors = colors.text();

@@ -27,8 +27,8 @@ void append_texts_of_schemes(const FrameStatistics& frame, const std::vector<std
 
 /// Models the frames that `options` select with `options.schemes`. `with_colors` fills `colors`. Adds to
 /// `frames_done` after each frame. Returns nothing once `stop` is not 0.
-Result<std::optional<ModelRows>> model_frames(FrameFeed& feed, const RunOptions& options, bool with_colors,
-                                              const std::atomic<int>& stop,
+Result<std::optional<ModelRows>> model_frames(const FrameFeed& feed, const RunOptions& options,
+                                              bool with_colors, const std::atomic<int>& stop,
                                               std::atomic<uint64_t>& frames_done);
 
 }  // namespace tilepress

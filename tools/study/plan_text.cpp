@@ -2,7 +2,6 @@
 #include "plan_text.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include <fmt/format.h>
 
@@ -37,23 +36,23 @@ double model_ns_per_pixel(const std::vector<SchemeSpec>& configurations, const M
   return static_cast<double>(sum_ns) / (kFrames - 1) / static_cast<double>(pixels.size());
 }
 
-/// Results that a workload has when its tasks are done.
-size_t all_results(const StudyPlan& plan, size_t workload) {
-  size_t all = 0;
-  for (const StudyTask& task : plan.tasks)
-    if (task.workload == workload) all += result_count(task);
-  return all;
-}
+struct TaskCounts {
+  uint64_t tasks = 0;
+  size_t results = 0;  ///< when the tasks are done
+  size_t stored = 0;   ///< of these, results that the folder has
+};
 
-/// Results of a workload that the folder has.
-size_t stored_results(const StudyPlan& plan, size_t workload, const StudyOptions& options) {
+TaskCounts count_tasks(const StudyPlan& plan, size_t workload, const StudyOptions& options) {
   const auto record = load_workload_record(options.folder, plan.workloads[workload].name);
-  if (!record || !record->has_frames()) return 0;
-  size_t stored = 0;
-  for (const StudyTask& task : plan.tasks)
-    if (task.workload == workload)
-      stored += result_count(task) - missing_results(plan, task, *record, options);
-  return stored;
+  const bool has_frames = record && record->has_frames();
+  TaskCounts counts;
+  for (const StudyTask& task : plan.tasks) {
+    if (task.workload != workload) continue;
+    ++counts.tasks;
+    counts.results += result_count(task);
+    if (has_frames) counts.stored += result_count(task) - missing_results(plan, task, *record, options);
+  }
+  return counts;
 }
 
 std::string duration_text(double seconds) {
@@ -75,8 +74,7 @@ std::string plan_text(const StudyPlan& plan, const StudyOptions& options) {
   for (size_t i = 0; i < plan.workloads.size(); ++i) {
     const Workload& workload = plan.workloads[i];
     const WorkloadSize size = size_of_workload(workload, options.render);
-    const size_t stored = stored_results(plan, i, options), all = all_results(plan, i);
-    const auto own_tasks = static_cast<uint64_t>(std::ranges::count(plan.tasks, i, &StudyTask::workload));
+    const auto [own_tasks, all, stored] = count_tasks(plan, i, options);
     out += fmt::format("{:<{}}  {:<8}  {:<11}  {:>8}  {:>5}  {:>4}/{:<4}  {}\n", workload.name, width,
                        workload.category, name_of(workload.kind), size.frames > 0 ? std::to_string(size.frames) : "?",
                        own_tasks, stored, all, size.note);

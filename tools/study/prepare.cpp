@@ -5,25 +5,15 @@
 
 #include "frames/image_frames.h"
 #include "study/cache/frame_cache.h"
-#include "study/import_run.h"
-#include "study/workload_size.h"
 #include "study/cache/host_name.h"
+#include "study/import_run.h"
 #include "study/text_file.h"
+#include "study/workload_size.h"
 #include "tilepress/file_digest.h"
+#include "tilepress/utc_time.h"
 
 namespace tilepress {
 namespace {
-
-/// Errors name the input; the record holds it apart.
-std::string without_subject(const std::string& text, const std::string& subject) {
-  return text.starts_with(subject + ": ") ? text.substr(subject.size() + 2) : text;
-}
-
-PreparedWorkload& fail_with(PreparedWorkload& prepared, const Error& error) {
-  prepared.record.state = error.kind == ErrorKind::kUnsupported ? "unsupported" : "failed";
-  prepared.record.reason = without_subject(error.text, prepared.record.source);
-  return prepared;
-}
 
 Result<void> take_cache_file(const std::string& path, PreparedWorkload& prepared) {
   FrameCacheReader reader;
@@ -99,11 +89,15 @@ PreparedWorkload prepare_workload(const Workload& workload, const StudyFile& stu
   record.source = workload.paths.size() == 1
                       ? workload.paths[0]
                       : std::filesystem::path(workload.paths[0]).parent_path().string();
-  record.prepared = utc_time();
+  record.prepared = utc_now();
   record.host = host_name();
   record.version = TILEPRESS_VERSION;
-  if (const auto done = prepare_any(workload, study, options, stop, prepared); !done)
-    fail_with(prepared, done.error());
+  if (const auto done = prepare_any(workload, study, options, stop, prepared); !done) {
+    record.state = done.error().kind == ErrorKind::kUnsupported ? "unsupported" : "failed";
+    record.reason = done.error().text;
+    // Errors name the input; the record holds it apart.
+    if (record.reason.starts_with(record.source + ": ")) record.reason.erase(0, record.source.size() + 2);
+  }
   return prepared;
 }
 

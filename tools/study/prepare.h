@@ -4,9 +4,10 @@
 #include <atomic>
 
 #include "study/frame_feed.h"
+#include "study/inputs.h"
 #include "study/study_file.h"
 #include "study/study_options.h"
-#include "study/workload_record.h"
+#include "study/study_records.h"
 
 namespace tilepress {
 

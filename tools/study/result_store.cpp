@@ -1,9 +1,7 @@
 // Result store: names of files.
 #include "result_store.h"
 
-#include <cctype>
-#include <cstring>
-
+#include "report/html_text.h"
 #include "study/configuration.h"
 #include "tilepress/file_digest.h"
 
@@ -20,14 +18,6 @@ std::string digest_of(const std::string& text) {
   return digest ? *digest : "no-digest-" + std::to_string(std::hash<std::string>()(text));
 }
 
-/// "vdcp:fvc=16,policy=lru" as "vdcp_fvc=16_policy=lru".
-std::string slug(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr(".-=", c) != nullptr ? c : '_';
-  return out.substr(0, kLongestName);
-}
-
 std::string numbers_of_files(const SchemeSpec& spec) {
   std::string out;
   for (const auto& [key, value] : spec.values)
@@ -38,41 +28,32 @@ std::string numbers_of_files(const SchemeSpec& spec) {
 
 }  // namespace
 
-std::string ResultStore::result_key(const std::string& frames_digest, const SchemeSpec& spec) const {
+std::string ResultStore::result_key(const SchemeSpec& spec) const {
   RunOptions options = options_;
   options.schemes = {spec};
   options.schemes[0].text = canonical_text(spec);
-  return digest_of(std::string(kResultsFormat) + "\n" + frames_digest + "\n" + rows_fingerprint(options) + "\n" +
-                   numbers_of_files(spec));
+  return digest_of(std::string(kResultsFormat) + "\n" + frames_digest_ + "\n" + rows_fingerprint(options) +
+                   "\n" + numbers_of_files(spec));
 }
 
-std::string ResultStore::result_path(const std::string& workload, const std::string& frames_digest,
-                                     const SchemeSpec& spec) const {
-  return folder_of(workload) + slug(canonical_text(spec)) + "-" +
-         result_key(frames_digest, spec).substr(0, kKeyDigits) + ".csv";
+std::string ResultStore::result_path(const SchemeSpec& spec) const {
+  const std::string slug = file_slug(canonical_text(spec), ".-=").substr(0, kLongestName);
+  return folder_ + slug + "-" + result_key(spec).substr(0, kKeyDigits) + ".csv";
 }
 
-std::string ResultStore::frames_key(const std::string& frames_digest, const std::string& further) const {
+std::string ResultStore::frames_key(const std::string& further) const {
   RunOptions options;  // no scheme, tile or burst
   options.schemes.clear();
   options.frames = options_.frames;
   options.every = options_.every;
-  return digest_of(std::string(kResultsFormat) + "\n" + frames_digest + "\n" + further + rows_fingerprint(options))
+  return digest_of(std::string(kResultsFormat) + "\n" + frames_digest_ + "\n" + further +
+                   rows_fingerprint(options))
       .substr(0, kKeyDigits);
 }
 
-std::string ResultStore::bound_path(const std::string& workload, const std::string& frames_digest,
-                                    const std::string& bound) const {
+std::string ResultStore::bound_path(const std::string& bound) const {
   const std::string further = bound + " burst=" + std::to_string(options_.model.burst_bits) + " ";
-  return folder_of(workload) + bound + "-" + frames_key(frames_digest, further) + ".csv";
-}
-
-std::string ResultStore::frames_path(const std::string& workload, const std::string& frames_digest) const {
-  return folder_of(workload) + "frames-" + metrics_key(frames_digest) + ".csv";
-}
-
-std::string ResultStore::colors_path(const std::string& workload, const std::string& frames_digest) const {
-  return folder_of(workload) + "colors-" + metrics_key(frames_digest) + ".csv";
+  return folder_ + bound + "-" + frames_key(further) + ".csv";
 }
 
 }  // namespace tilepress

@@ -1,15 +1,12 @@
 // Result tables: each column is a line of a table.
-#include "result_tables.h"
+#include "study_tables.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <numeric>
-#include <span>
 
 #include "report/run_summary.h"
 #include "study/bounds/bound_coders.h"
-#include "study/configuration_columns.h"
+#include "study/configuration.h"
 #include "tilepress/cost_model.h"
 #include "tilepress/csv_table.h"
 #include "tilepress/dram_presets.h"
@@ -18,8 +15,9 @@
 namespace tilepress {
 namespace {
 
-void append_optional(std::string& out, const std::optional<double>& value) {
-  if (value) out += csv_number(*value);
+template <class T>
+void append_optional(std::string& out, const std::optional<T>& value) {
+  if (value) append_csv(out, *value);
 }
 
 /// DRAM and DCP's structures; the paper has no figures for the logic of other schemes.
@@ -63,12 +61,6 @@ struct ConfigurationValues {
   }
 };
 
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
-
 namespace means_table {
 using Row = ConfigurationValues;
 constexpr CsvColumn<Row> kColumns[] = {
@@ -90,21 +82,6 @@ constexpr CsvColumn<Row> kCoverageColumns[] = {
 };
 }  // namespace means_table
 
-void append_result(const Workload& workload, const SchemeSpec& spec, const ResultSums& sums, std::string& out) {
-  append_csv(out, workload.name);
-  append_csv(out += ',', workload.category);
-  append_configuration(spec, out += ',');
-  append_csv_fields(sums_csv::kColumns, sums, out += ',');
-  append_optional(out += ',', sums.fvc_coverage.mean());
-  append_optional(out += ',', sums.fvc_relative_coverage.mean());
-  for (const auto& count : sums.own) {
-    out += ',';
-    if (count) append_csv(out, *count);
-  }
-  append_optional(out += ',', energy_nj(spec, sums.total));
-  out += '\n';
-}
-
 /// Over the workloads that have result i in `list_of(results)`. Empty `category`: all workloads.
 template <class ListOf>
 ConfigurationValues values_of(const StudyPlan& plan, const std::vector<WorkloadResults>& results,
@@ -118,29 +95,12 @@ ConfigurationValues values_of(const StudyPlan& plan, const std::vector<WorkloadR
   return values;
 }
 
-std::string category_cell(const std::string& category) {
-  return csv_field(category.empty() ? "all" : category) + ",";
-}
-
-void append_means(const StudyPlan& plan, const std::vector<WorkloadResults>& results, const std::string& category,
-                  std::string& out) {
-  for (size_t i = 0; i < plan.study.configurations.size(); ++i) {
-    const ConfigurationValues values = values_of(plan, results, category, &WorkloadResults::sums, i);
-    if (values.rates.empty()) continue;
-    append_configuration(plan.study.configurations[i], out += category_cell(category));
-    append_csv_fields(means_table::kColumns, values, out += ',');
-    append_csv_row(means_table::kCoverageColumns, values, out += ',');
-  }
-}
-
-void append_bound_means(const StudyPlan& plan, const std::vector<WorkloadResults>& results,
-                        const std::string& category, std::string& out) {
-  for (size_t i = 0; i < bounds().size(); ++i) {
-    const ConfigurationValues values = values_of(plan, results, category, &WorkloadResults::bounds, i);
-    if (values.rates.empty()) continue;
-    append_csv(out += category_cell(category), bounds()[i].name);
-    append_csv_row(means_table::kColumns, values, out += ',');
-  }
+/// Calls append(category, cell of the category) for each category of the study, and for all workloads: "".
+template <class Append>
+void for_each_category(const StudyPlan& plan, const Append& append) {
+  for (const StudyCategory& category : plan.study.categories)
+    append(category.name, csv_field(category.name) + ",");
+  append("", "all,");
 }
 
 /// The names of the presets with this burst.
@@ -149,26 +109,6 @@ std::string presets_with(uint32_t burst_bits) {
   for (const DramPreset& preset : kDramPresets)
     if (preset.burst_bits == burst_bits) out.append(out.empty() ? "" : " ").append(preset.name);
   return out;
-}
-
-void append_sensitivity(const StudyPlan& plan, const std::vector<WorkloadResults>& results,
-                        const std::string& category, std::string& out) {
-  static const std::vector<std::optional<ResultSums>> kNone;
-  for (size_t i = 0; i < plan.study.configurations.size(); ++i)
-    for (const uint32_t burst : plan.study.bursts) {
-      const auto at_burst = [&](const WorkloadResults& of) -> const std::vector<std::optional<ResultSums>>& {
-        const auto further = of.at_bursts.find(burst);
-        if (further != of.at_bursts.end()) return further->second;
-        const bool is_main = i < of.sums.size() && of.sums[i] && of.sums[i]->total.burst_bits == burst;
-        return is_main ? of.sums : kNone;
-      };
-      const ConfigurationValues values = values_of(plan, results, category, at_burst, i);
-      if (values.rates.empty()) continue;
-      append_configuration(plan.study.configurations[i], out += category_cell(category));
-      append_csv(out += ',', burst);
-      append_csv(out += ',', presets_with(burst));
-      append_csv_row(means_table::kColumns, values, out += ',');
-    }
 }
 
 }  // namespace
@@ -180,19 +120,34 @@ std::string results_csv(const StudyPlan& plan, const std::vector<WorkloadResults
   for (const std::string_view name : own_column_names()) out.append(",").append(name);
   out += ",energy_nj\n";
   for (size_t workload = 0; workload < results.size(); ++workload)
-    for (size_t i = 0; i < plan.study.configurations.size(); ++i)
-      if (const auto& sums = results[workload].sums[i]; sums && sums->frames > 0)
-        append_result(plan.workloads[workload], plan.study.configurations[i], *sums, out);
+    for (size_t i = 0; i < plan.study.configurations.size(); ++i) {
+      const SchemeSpec& spec = plan.study.configurations[i];
+      const auto& sums = results[workload].sums[i];
+      if (!sums || sums->frames == 0) continue;
+      append_configuration(spec, out += subject_cells(plan.workloads[workload]));
+      append_csv_fields(sums_csv::kColumns, *sums, out += ',');
+      append_optional(out += ',', sums->fvc_coverage.mean());
+      append_optional(out += ',', sums->fvc_relative_coverage.mean());
+      for (const auto& count : sums->own) append_optional(out += ',', count);
+      append_optional(out += ',', energy_nj(spec, sums->total));
+      out += '\n';
+    }
   return out;
 }
 
 std::string means_csv(const StudyPlan& plan, const std::vector<WorkloadResults>& results) {
   std::string out = "category," + configuration_header() + ",";
   append_csv_names(means_table::kColumns, out);
-  append_csv_names(means_table::kCoverageColumns, out += ',');
-  out += '\n';
-  for (const StudyCategory& category : plan.study.categories) append_means(plan, results, category.name, out);
-  append_means(plan, results, "", out);
+  out += "," + csv_header(means_table::kCoverageColumns);
+  for_each_category(plan, [&](const std::string& category, const std::string& cell) {
+    for (size_t i = 0; i < plan.study.configurations.size(); ++i) {
+      const ConfigurationValues values = values_of(plan, results, category, &WorkloadResults::sums, i);
+      if (values.rates.empty()) continue;
+      append_configuration(plan.study.configurations[i], out += cell);
+      append_csv_fields(means_table::kColumns, values, out += ',');
+      append_csv_row(means_table::kCoverageColumns, values, out += ',');
+    }
+  });
   return out;
 }
 
@@ -202,9 +157,7 @@ std::string bounds_csv(const StudyPlan& plan, const std::vector<WorkloadResults>
     for (size_t i = 0; i < results[workload].bounds.size(); ++i) {
       const auto& sums = results[workload].bounds[i];
       if (!sums || sums->frames == 0) continue;
-      append_csv(out, plan.workloads[workload].name);
-      append_csv(out += ',', plan.workloads[workload].category);
-      append_csv(out += ',', bounds()[i].name);
+      append_csv(out += subject_cells(plan.workloads[workload]), bound_names()[i]);
       append_csv_row(sums_csv::kColumns, *sums, out += ',');
     }
   return out;
@@ -212,15 +165,38 @@ std::string bounds_csv(const StudyPlan& plan, const std::vector<WorkloadResults>
 
 std::string bound_means_csv(const StudyPlan& plan, const std::vector<WorkloadResults>& results) {
   std::string out = "category,bound," + csv_header(means_table::kColumns);
-  for (const StudyCategory& category : plan.study.categories) append_bound_means(plan, results, category.name, out);
-  append_bound_means(plan, results, "", out);
+  for_each_category(plan, [&](const std::string& category, const std::string& cell) {
+    for (size_t i = 0; i < bound_names().size(); ++i) {
+      const ConfigurationValues values = values_of(plan, results, category, &WorkloadResults::bounds, i);
+      if (values.rates.empty()) continue;
+      append_csv(out += cell, bound_names()[i]);
+      append_csv_row(means_table::kColumns, values, out += ',');
+    }
+  });
   return out;
 }
 
 std::string sensitivity_csv(const StudyPlan& plan, const std::vector<WorkloadResults>& results) {
+  static const std::vector<std::optional<ResultSums>> kNone;
   std::string out = "category," + configuration_header() + ",burst_bits,dram," + csv_header(means_table::kColumns);
-  for (const StudyCategory& category : plan.study.categories) append_sensitivity(plan, results, category.name, out);
-  append_sensitivity(plan, results, "", out);
+  const auto append = [&](const std::string& category, const std::string& cell, size_t i, uint32_t burst) {
+    const auto at_burst = [&](const WorkloadResults& of) -> const std::vector<std::optional<ResultSums>>& {
+      const auto further = of.at_bursts.find(burst);
+      if (further != of.at_bursts.end()) return further->second;
+      const bool is_main = i < of.sums.size() && of.sums[i] && of.sums[i]->total.burst_bits == burst;
+      return is_main ? of.sums : kNone;
+    };
+    const ConfigurationValues values = values_of(plan, results, category, at_burst, i);
+    if (values.rates.empty()) return;
+    append_configuration(plan.study.configurations[i], out += cell);
+    append_csv(out += ',', burst);
+    append_csv(out += ',', presets_with(burst));
+    append_csv_row(means_table::kColumns, values, out += ',');
+  };
+  for_each_category(plan, [&](const std::string& category, const std::string& cell) {
+    for (size_t i = 0; i < plan.study.configurations.size(); ++i)
+      for (const uint32_t burst : plan.study.bursts) append(category, cell, i, burst);
+  });
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "capture/child_process.h"
 #include "study/text_file.h"
 #include "tilepress/program_search.h"
+#include "tilepress/whole_file.h"
 #include "way_out.h"
 
 namespace tilepress {
@@ -25,36 +26,31 @@ Result<std::string> sbatch(const std::string& folder, const std::vector<std::str
   const auto end = run_child(argv, {});
   if (!end) return end.error();
   if (end->status() != 0) return Error{ErrorKind::kSystem, "sbatch: exit status " + std::to_string(end->status())};
-  const auto text = read_text_file(answer);
+  const auto text = read_whole_file(answer);
   if (!text) return text.error();
   // "number" or "number;cluster"
   return text->substr(0, text->find_first_of(";\n"));
 }
 
-}  // namespace
+/// The most elements of an array that Slurm's default configuration takes.
+constexpr size_t kMostArrayTasks = 1000;
 
-uint32_t array_shards(const StudyPlan& plan) {
-  return static_cast<uint32_t>(std::clamp<size_t>(plan.tasks.size(), 1, kMostArrayTasks));
-}
-
-std::vector<uint32_t> shards_of(const std::vector<size_t>& tasks, uint32_t shard_count) {
-  std::set<uint32_t> shards;
-  for (const size_t task : tasks) shards.insert(static_cast<uint32_t>(task % shard_count) + 1);
-  return {shards.begin(), shards.end()};
-}
-
-std::string array_text(const std::vector<uint32_t>& shards) {
+/// "1-4,7": sbatch's --array for the shards that hold any of these tasks.
+std::string array_text(const std::vector<size_t>& tasks, uint32_t shard_count) {
+  std::set<size_t> shards;
+  for (const size_t task : tasks) shards.insert(task % shard_count + 1);
   std::string out;
-  for (size_t i = 0; i < shards.size();) {
-    size_t last = i;
-    while (last + 1 < shards.size() && shards[last + 1] == shards[last] + 1) ++last;
-    out += fmt::format("{}{}", out.empty() ? "" : ",", shards[i]);
-    if (last > i) out += fmt::format("-{}", shards[last]);
-    i = last + 1;
+  for (auto at = shards.begin(); at != shards.end();) {
+    const size_t first = *at;
+    size_t last = first;
+    while (++at != shards.end() && *at == last + 1) ++last;
+    out += fmt::format("{}{}", out.empty() ? "" : ",", first);
+    if (last > first) out += fmt::format("-{}", last);
   }
   return out;
 }
 
+/// The script of the array job. An element runs one shard of `shard_count`.
 std::string job_script(const StudyPlan& plan, const StudyOptions& options, const std::string& command,
                        uint32_t shard_count) {
   return fmt::format(
@@ -66,17 +62,20 @@ std::string job_script(const StudyPlan& plan, const StudyOptions& options, const
       plan.study.name, shell_word(command), shell_word(options.folder), shard_count);
 }
 
+}  // namespace
+
 Result<std::string> submit_to_slurm(const StudyPlan& plan, const StudyOptions& options,
                                     const std::vector<size_t>& tasks) {
   if (const auto found = find_program("sbatch"); !found)
     return Error{ErrorKind::kFile, "--launcher slurm: sbatch is not there"};
   std::error_code code;
   const std::string command = fs::read_symlink("/proc/self/exe", code).string();
-  const uint32_t shard_count = array_shards(plan);
+  // One shard per task, or fewer, larger ones.
+  const auto shard_count = static_cast<uint32_t>(std::clamp<size_t>(plan.tasks.size(), 1, kMostArrayTasks));
   const std::string folder = options.folder, script = folder + "/slurm/job.sh";
   const auto stored = store_text_file(script, job_script(plan, options, command, shard_count));
   if (!stored) return stored.error();
-  auto job = sbatch(folder, {"--array=" + array_text(shards_of(tasks, shard_count)),
+  auto job = sbatch(folder, {"--array=" + array_text(tasks, shard_count),
                              "--output=" + folder + "/slurm/%A-%a.log", "--chdir=" + folder, script});
   if (!job) return job;
   const std::string merge = shell_word(command) + " study merge " + shell_word(folder);

@@ -1,7 +1,6 @@
 // Study command: runs tasks, then writes tables.
 #include "study_command.h"
 
-#include <charconv>
 #include <chrono>
 #include <thread>
 
@@ -17,6 +16,7 @@
 #include "study/study_run.h"
 #include "study/study_tables.h"
 #include "study/task_status.h"
+#include "tilepress/csv_table.h"
 
 namespace tilepress {
 namespace {
@@ -24,13 +24,9 @@ namespace {
 /// "2/8"
 std::string set_shard(const std::string& text, Shard& shard) {
   const size_t slash = text.find('/');
-  const auto number = [&](std::string_view part, uint32_t& out) {
-    const auto [end, code] = std::from_chars(part.data(), part.data() + part.size(), out);
-    return code == std::errc() && end == part.data() + part.size();
-  };
   Shard given;
-  const bool read = slash != std::string::npos && number(std::string_view(text).substr(0, slash), given.index) &&
-                    number(std::string_view(text).substr(slash + 1), given.count);
+  const bool read = slash != std::string::npos && read_csv(text.substr(0, slash), given.index) &&
+                    read_csv(text.substr(slash + 1), given.count);
   if (!read || given.index < 1 || given.index > given.count)
     return "--shard " + text + ": must be I/N with I in 1..N";
   shard = given;
@@ -46,12 +42,6 @@ std::string summary_line(const StudyPlan& plan, const StudyCommand& command, con
   out += fmt::format("\n  traces:  {} rendered, {} from the cache\n", counts.rendered, counts.from_cache);
   out += fmt::format("  results: {} computed, {} kept; {:.1f} s\n", counts.computed, counts.kept, seconds);
   return out;
-}
-
-bool renders_traces(const StudyPlan& plan) {
-  for (const Workload& workload : plan.workloads)
-    if (workload.kind == WorkloadKind::kTrace) return true;
-  return false;
 }
 
 }  // namespace
@@ -109,7 +99,7 @@ int execute_study(const StudyPlan& plan, StudyCommand& command) {
   if (command.launcher == StudyLauncher::kSlurm) return submit_study(plan, command);
   const auto begin = std::chrono::steady_clock::now();
   TemporaryFolder links;
-  if (renders_traces(plan)) {
+  if (std::ranges::count(plan.workloads, WorkloadKind::kTrace, &Workload::kind) > 0) {
     const auto shim = preloadable_shim(false, links);
     if (!shim) return fail(kExitFailed, shim.error());
     command.study.render.shim = *shim;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <string>
 
 #include "progress_line.h"
 #include "study/study_options.h"

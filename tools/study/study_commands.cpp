@@ -1,7 +1,6 @@
 // Study commands: status, retry, merge and cache.
 #include <algorithm>
 #include <cstdio>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -22,21 +21,26 @@ struct KnownStudy {
   StudyPlan plan;
 };
 
+/// Parses the words after "study NAME". Returns the exit status if the command must stop.
+std::optional<int> parse_sub_command(CLI::App& app, int argc, char** argv) {
+  std::string name = std::string("study ") + argv[0];
+  std::vector<char*> words(argv, argv + argc);
+  words[0] = name.data();
+  return parse_command_line(app, argc, words.data());
+}
+
 /// Parses DIR and, with `works`, the options of work. Returns the exit status if the command must stop.
 std::optional<int> open_study(int argc, char** argv, const std::string& about_command, bool works,
                               KnownStudy& known) {
   std::string folder;
   StudyCommand& command = known.command;
-  const std::string name = std::string("study ") + argv[0];
   CLI::App app(about_command);
   app.add_option("DIR", folder, "Folder of a study")->required();
   if (works)
     add_work_options(app, command);
   else
     app.add_flag("-q,--quiet", command.quiet, "Print no summary");
-  std::vector<char*> words(argv, argv + argc);
-  words[0] = const_cast<char*>(name.c_str());
-  if (const auto status = parse_command_line(app, argc, words.data())) return status;
+  if (const auto status = parse_sub_command(app, argc, argv)) return status;
   if (command.verbose) set_message_level("info");
   auto options = load_invocation(absolute_folder(folder));
   if (!options) return fail(kExitFailed, options.error());
@@ -103,10 +107,7 @@ int study_cache(int argc, char** argv) {
   app.add_option("--keep", keep_gib, "GiB that prune leaves, the most recently used first (default: 0)")
       ->type_name("GIB");
   app.add_flag("-n,--dry-run", prune.dry_run, "Print what prune would remove");
-  std::string name = "study cache";
-  std::vector<char*> words(argv, argv + argc);
-  words[0] = name.data();
-  if (const auto status = parse_command_line(app, argc, words.data())) return *status;
+  if (const auto status = parse_sub_command(app, argc, argv)) return *status;
   if (command == "list") return list_cache(folder);
   prune.keep_bytes = keep_gib << 30;
   return prune_cache(folder, prune);

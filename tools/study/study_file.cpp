@@ -4,18 +4,22 @@
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
+#include <variant>
 
 #include "input_kind.h"
 #include "study/configuration.h"
-#include "study/study_assets.h"
-#include "study/text_file.h"
 #include "tilepress/nearest_word.h"
 #include "tilepress/plugin_library.h"
 #include "tilepress/run_options.h"
+#include "tilepress/whole_file.h"
 #include "toml_text.h"
 #include "way_out.h"
 
 namespace tilepress {
+
+// The built-in studies, paper.toml with figures/paper_figures.toml, and the example, embedded at build time.
+extern const std::string_view kPaperStudy, kPaperFigures, kSensitivityStudy, kExampleStudy;
+
 namespace {
 
 /// A number or text as text.
@@ -43,38 +47,27 @@ Result<std::vector<std::string>> words(const toml::node& node) {
   return out;
 }
 
-/// Where the keys of a table go. Keys of `ignored` are read elsewhere.
-struct TableKeys {
-  std::vector<std::pair<std::string_view, std::string*>> texts = {};
-  std::vector<std::pair<std::string_view, std::vector<std::string>*>> lists = {};
-  std::vector<std::string_view> ignored = {};
-};
-
-template <class Places>
-auto place_of(const Places& places, std::string_view key) {
-  return std::ranges::find(places, key, [](const auto& place) { return place.first; });
-}
-
-std::vector<std::string_view> names_of(const TableKeys& keys) {
-  std::vector<std::string_view> names = keys.ignored;
-  for (const auto& [name, place] : keys.texts) names.push_back(name);
-  for (const auto& [name, place] : keys.lists) names.push_back(name);
-  return names;
-}
+/// Where the value of each key of a table goes. Keys without a place are read elsewhere.
+using Place = std::variant<std::monostate, std::string*, std::vector<std::string>*>;
+using TableKeys = std::vector<std::pair<std::string_view, Place>>;
 
 Result<void> take_table(const toml::table& table, const TableKeys& keys) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, place] : keys) names.push_back(name);
   for (const auto& [key_node, node] : table) {
     const std::string_view key = key_node.str();
-    if (const auto place = place_of(keys.texts, key); place != keys.texts.end()) {
-      const auto text = word(node);
-      if (!text) return about(key, text.error());
-      *place->second = *text;
-    } else if (const auto list = place_of(keys.lists, key); list != keys.lists.end()) {
-      const auto texts = words(node);
-      if (!texts) return about(key, texts.error());
-      *list->second = *texts;
-    } else if (std::ranges::find(keys.ignored, key) == keys.ignored.end()) {
-      return at_line(node, "unknown key '" + std::string(key) + "'" + nearest_hint(key, names_of(keys)));
+    const auto known = std::ranges::find(names, key);
+    if (known == names.end())
+      return at_line(node, "unknown key '" + std::string(key) + "'" + nearest_hint(key, names));
+    const Place& place = keys[static_cast<size_t>(known - names.begin())].second;
+    if (const auto text = std::get_if<std::string*>(&place)) {
+      const auto value = word(node);
+      if (!value) return about(key, value.error());
+      **text = *value;
+    } else if (const auto list = std::get_if<std::vector<std::string>*>(&place)) {
+      const auto values = words(node);
+      if (!values) return about(key, values.error());
+      **list = *values;
     }
   }
   return {};
@@ -115,15 +108,21 @@ class StudyParser {
  public:
   Result<StudyFile> parse(const toml::table& root) {
     std::vector<std::string> listed, bursts;
-    const TableKeys keys{{{"name", &study_.name}, {"title", &study_.title}, {"baseline", &study_.baseline}},
-                         {{"configurations", &listed}, {"inputs", &study_.inputs}, {"bursts", &bursts}},
-                         {"plugins", "category", "axis", "figure"}};
-    Result<void> done = take_table(root, keys);
-    if (done) done = take_name(root);
+    Result<void> done = take_table(root, {{"plugins", {}},
+                                          {"category", {}},
+                                          {"axis", {}},
+                                          {"figure", {}},
+                                          {"name", &study_.name},
+                                          {"title", &study_.title},
+                                          {"baseline", &study_.baseline},
+                                          {"configurations", &listed},
+                                          {"inputs", &study_.inputs},
+                                          {"bursts", &bursts}});
+    if (done && study_.name.empty()) done = at_line(root, "name = \"...\" is missing");
+    if (study_.title.empty()) study_.title = study_.name;
     for (size_t i = 0; done && i < bursts.size(); ++i) done = take_burst(*root.get("bursts"), bursts[i]);
-    for (size_t i = 0; done && i < listed.size(); ++i) {
+    for (size_t i = 0; done && i < listed.size(); ++i)
       done = add_configurations(*root.get("configurations"), listed[i]);
-    }
     if (done)
       done = for_each_table(root, "category", [&](const auto& table) { return take_category(table); });
     if (done) done = for_each_table(root, "axis", [&](const auto& table) { return take_axis(table); });
@@ -136,12 +135,6 @@ class StudyParser {
   }
 
  private:
-  Result<void> take_name(const toml::table& root) {
-    if (study_.name.empty()) return at_line(root, "name = \"...\" is missing");
-    if (study_.title.empty()) study_.title = study_.name;
-    return {};
-  }
-
   Result<void> take_burst(const toml::node& where, const std::string& text) {
     RunOptions options;
     if (const auto set = set_run_option(options, "burst", text); !set) return at_line(where, set.error().text);
@@ -167,8 +160,8 @@ class StudyParser {
 
   Result<void> take_category(const toml::table& table) {
     StudyCategory category;
-    const auto taken = take_table(table, {{{"name", &category.name}, {"title", &category.title}},
-                                          {{"workloads", &category.workloads}}});
+    const auto taken = take_table(
+        table, {{"name", &category.name}, {"title", &category.title}, {"workloads", &category.workloads}});
     if (!taken) return taken;
     if (category.name.empty()) return at_line(table, "a category without name");
     if (std::ranges::count(study_.categories, category.name, &StudyCategory::name) > 0)
@@ -180,12 +173,12 @@ class StudyParser {
 
   Result<void> take_axis(const toml::table& table) {
     StudyAxis axis;
-    const auto taken = take_table(table, {{{"name", &axis.name},
-                                           {"title", &axis.title},
-                                           {"scheme", &axis.scheme},
-                                           {"key", &axis.key},
-                                           {"fixed", &axis.fixed}},
-                                          {{"values", &axis.values}}});
+    const auto taken = take_table(table, {{"name", &axis.name},
+                                          {"title", &axis.title},
+                                          {"scheme", &axis.scheme},
+                                          {"key", &axis.key},
+                                          {"fixed", &axis.fixed},
+                                          {"values", &axis.values}});
     if (!taken) return taken;
     if (axis.name.empty() || axis.scheme.empty() || axis.key.empty())
       return at_line(table, "an axis needs name, scheme and key");
@@ -263,7 +256,7 @@ std::string_view example_study() {
 
 Result<StudyFile> load_study(const std::string& name) {
   const std::string built_in = built_in_study(name);
-  const auto text = built_in.empty() ? read_text_file(name) : Result<std::string>(built_in);
+  const auto text = built_in.empty() ? read_whole_file(name) : Result<std::string>(built_in);
   if (!text) {
     Error error = text.error();
     constexpr std::string_view kWords[] = {"paper", "sensitivity", "status", "retry", "merge", "cache"};

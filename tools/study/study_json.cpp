@@ -1,12 +1,9 @@
 // Study JSON: members in a fixed order.
-#include "study_json.h"
-
-#include <map>
+#include "study_tables.h"
 
 #include <nlohmann/json.hpp>
 
 #include "study/result_store.h"
-#include "study/task_state.h"
 #include "tilepress/plugin_library.h"
 #include "tilepress/run_option_table.h"
 
@@ -89,19 +86,19 @@ std::string study_json(const StudyPlan& plan, const StudyOptions& options) {
 
 std::string provenance_json(const StudyPlan& plan, const StudyOptions& options,
                             const std::vector<WorkloadResults>& results) {
-  const ResultStore store(options.folder, options.run);
   Json out = {{"study", plan.study.name}, {"version", TILEPRESS_VERSION}, {"options", options_json(options.run)}};
   out["workloads"] = Json::array();
   for (size_t workload = 0; workload < results.size(); ++workload) {
     const WorkloadRecord& record = results[workload].record;
     const std::string& name = plan.workloads[workload].name;
+    const ResultStore store(options.folder, options.run, name, record.frames_digest);
     Json entry = record_json(plan.workloads[workload], record);
     entry["results"] = Json::array();
     for (size_t i = 0; i < plan.study.configurations.size(); ++i) {
       if (!results[workload].sums[i]) continue;
       const SchemeSpec& spec = plan.study.configurations[i];
-      Json result = {{"configuration", spec.text}, {"key", store.result_key(record.frames_digest, spec)}};
-      result["rows"] = store.result_path(name, record.frames_digest, spec).substr(options.folder.size() + 1);
+      Json result = {{"configuration", spec.text}, {"key", store.result_key(spec)}};
+      result["rows"] = store.result_path(spec).substr(options.folder.size() + 1);
       result["computed"] = origin_json(plan, options, workload, i);
       entry["results"].push_back(std::move(result));
     }

@@ -88,7 +88,7 @@ std::string task_content(const StudyTask& task) {
 }
 
 size_t result_count(const StudyTask& task) {
-  return task.is_bounds() ? bounds().size() : task.configurations.size();
+  return task.is_bounds() ? bound_names().size() : task.configurations.size();
 }
 
 }  // namespace tilepress

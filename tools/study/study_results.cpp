@@ -1,25 +1,27 @@
 // Study results: one file per workload and configuration.
 #include "study_results.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "counted.h"
 #include "study/bounds/bound_coders.h"
 #include "study/result_store.h"
-#include "study/task_state.h"
-#include "study/text_file.h"
 #include "tilepress/csv_rows.h"
 #include "tilepress/run_info.h"
 #include "tilepress/statistics_rows.h"
+#include "tilepress/whole_file.h"
 
 namespace tilepress {
 namespace {
+
+using SumsList = std::vector<std::optional<ResultSums>>;
 
 /// The text of a file, or nothing if there is no such file.
 Result<std::optional<std::string>> text_if_there(const std::string& path) {
   std::error_code code;
   if (!std::filesystem::exists(path, code)) return std::optional<std::string>();
-  auto text = read_text_file(path);
+  auto text = read_whole_file(path);
   if (!text) return text.error();
   return std::optional(std::move(*text));
 }
@@ -46,30 +48,30 @@ std::string missing_reason(const StudyPlan& plan, size_t workload, const StudyOp
   return counted(missing, "result") + (missing == 1 ? " is" : " are") + " not computed";
 }
 
-/// The sums of a file of rows, or nothing if there is no such file.
-Result<std::optional<ResultSums>> sums_if_there(const std::string& path, uint32_t burst_bits, bool with_frames) {
+/// Appends the sums of a file of rows, or nothing if there is no such file.
+Result<void> append_sums(const std::string& path, uint32_t burst_bits, bool with_frames, SumsList& list) {
+  auto& sums = list.emplace_back();
   const auto text = text_if_there(path);
   if (!text) return text.error();
-  if (!*text) return std::optional<ResultSums>();
-  auto sums = sum_result_rows(**text, burst_bits, with_frames);
-  if (!sums) return about(path, sums.error());
-  return std::optional(std::move(*sums));
+  if (!*text) return {};
+  auto read = sum_result_rows(**text, burst_bits, with_frames);
+  if (!read) return about(path, read.error());
+  sums = std::move(*read);
+  return {};
 }
 
-/// The sums of every configuration under these options. Counts those that are missing.
-Result<std::vector<std::optional<ResultSums>>> load_sums(const StudyPlan& plan, const Workload& workload,
-                                                         const WorkloadRecord& record, const StudyOptions& options,
-                                                         const RunOptions& run, size_t& missing) {
-  const ResultStore store(options.folder, run);
-  std::vector<std::optional<ResultSums>> out;
-  for (const SchemeSpec& spec : plan.study.configurations) {
-    auto sums = sums_if_there(store.result_path(workload.name, record.frames_digest, spec), run.model.burst_bits,
-                              spec.text == plan.study.baseline);
-    if (!sums) return sums.error();
-    missing += !*sums;
-    out.push_back(std::move(*sums));
-  }
-  return out;
+/// The sums of every configuration.
+Result<SumsList> load_sums(const StudyFile& study, const ResultStore& store, uint32_t burst_bits) {
+  SumsList list;
+  for (const SchemeSpec& spec : study.configurations)
+    if (const auto done = append_sums(store.result_path(spec), burst_bits, spec.text == study.baseline, list);
+        !done)
+      return done.error();
+  return list;
+}
+
+size_t missing_in(const SumsList& list) {
+  return static_cast<size_t>(std::ranges::count_if(list, [](const auto& sums) { return !sums; }));
 }
 
 Result<WorkloadResults> load_workload(const StudyPlan& plan, size_t number, const StudyOptions& options) {
@@ -86,27 +88,28 @@ Result<WorkloadResults> load_workload(const StudyPlan& plan, size_t number, cons
   }
   out.record = *record;
   if (!record->has_frames()) return out;
-  const ResultStore store(options.folder, options.run);
-  const uint32_t burst_bits = options.run.model.burst_bits;
-  size_t missing = 0;
-  auto sums = load_sums(plan, workload, *record, options, options.run, missing);
+  const auto store_with = [&](const RunOptions& run) {
+    return ResultStore(options.folder, run, workload.name, record->frames_digest);
+  };
+  const ResultStore store = store_with(options.run);
+  const uint32_t own_burst = options.run.model.burst_bits;
+  auto sums = load_sums(plan.study, store, own_burst);
   if (!sums) return sums.error();
   out.sums = std::move(*sums);
+  size_t missing = missing_in(out.sums);
   const bool is_run = workload.kind == WorkloadKind::kRun;
   for (const uint32_t burst : is_run ? std::vector<uint32_t>() : further_bursts(plan.study, options)) {
-    auto further = load_sums(plan, workload, *record, options, run_options_of({"", 0, {}, burst}, options), missing);
+    auto further = load_sums(plan.study, store_with(run_options_of({"", 0, {}, burst}, options)), burst);
     if (!further) return further.error();
+    missing += missing_in(*further);
     out.at_bursts[burst] = std::move(*further);
   }
-  if (options.bounds && !is_run)
-    for (const std::string& name : bound_names()) {
-      auto bound = sums_if_there(store.bound_path(workload.name, record->frames_digest, name), burst_bits, false);
-      if (!bound) return bound.error();
-      missing += !*bound;
-      out.bounds.push_back(std::move(*bound));
-    }
-  const auto frames = text_if_there(store.frames_path(workload.name, record->frames_digest));
-  const auto colors = text_if_there(store.colors_path(workload.name, record->frames_digest));
+  for (const std::string& name : options.bounds && !is_run ? bound_names() : std::vector<std::string>())
+    if (const auto done = append_sums(store.bound_path(name), own_burst, false, out.bounds); !done)
+      return done.error();
+  missing += missing_in(out.bounds);
+  const auto frames = text_if_there(store.frames_path());
+  const auto colors = text_if_there(store.colors_path());
   if (!frames || !colors) return (frames ? colors : frames).error();
   if (*frames) {
     auto read = read_frames(**frames);

@@ -8,7 +8,7 @@
 
 #include "study/result_rows.h"
 #include "study/study_plan.h"
-#include "study/workload_record.h"
+#include "study/study_records.h"
 
 namespace tilepress {
 
@@ -18,7 +18,8 @@ struct WorkloadResults {
   std::string colors;                   ///< CSV: colors, pixels_share
   std::vector<std::optional<ResultSums>> sums;  ///< by position in StudyFile::configurations
   std::map<uint32_t, std::vector<std::optional<ResultSums>>> at_bursts;  ///< `sums` at further_bursts()
-  std::vector<std::optional<ResultSums>> bounds;  ///< by position in bounds(); none without StudyOptions::bounds
+  std::vector<std::optional<ResultSums>>
+      bounds;  ///< by position in bound_names(); none without StudyOptions::bounds
 };
 
 /// Loads what the study folder holds for the plan, in the order of its workloads. A result that is not there is

@@ -50,12 +50,10 @@ class StudyWorkers {
   }
 
  private:
-  bool in_shard(size_t task) const { return options_.shard.takes(task); }
-
   std::vector<const StudyTask*> tasks_of(size_t workload) const {
     std::vector<const StudyTask*> tasks;
     for (size_t i = 0; i < plan_.tasks.size(); ++i)
-      if (plan_.tasks[i].workload == workload && in_shard(i)) tasks.push_back(&plan_.tasks[i]);
+      if (plan_.tasks[i].workload == workload && options_.shard.takes(i)) tasks.push_back(&plan_.tasks[i]);
     return tasks;
   }
 
@@ -163,7 +161,7 @@ class StudyWorkers {
     }
     counts_.computed += outcome->computed;
     counts_.kept += outcome->kept;
-    counts_.elsewhere += outcome->end == TaskEnd::kElsewhere;
+    counts_.elsewhere += outcome->elsewhere;
     if (outcome->computed > 0)
       say(MessageLevel::kInfo,
           fmt::format("{}: {} of {} modelled", plan_.workloads[task.workload].name, outcome->computed,

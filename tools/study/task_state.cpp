@@ -1,4 +1,4 @@
-// Task state: locks of open file descriptions, and a JSON file per task.
+// Task state: locks of open file descriptions.
 #include "task_state.h"
 
 #include <fcntl.h>
@@ -7,16 +7,11 @@
 #include <cerrno>
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
-
 #include "study/cache/host_name.h"
-#include "study/text_file.h"
 #include "tilepress/file_error.h"
+#include "tilepress/whole_file.h"
 
 namespace tilepress {
-
-// Outside the unnamed namespace, where the library finds the functions.
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(TaskRecord, reason, host, version, date, seconds, frames)
 
 namespace {
 
@@ -71,26 +66,9 @@ std::optional<TaskWorker> worker_of(const std::string& folder, const std::string
   struct flock lock = whole_file_lock();
   const bool held = fcntl(fd, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
   close(fd);
-  const auto text = read_text_file(path);
+  const auto text = read_whole_file(path);
   if (!text) return std::nullopt;  // it has ended meanwhile
   return TaskWorker{text->substr(0, text->find('\n')), held};
-}
-
-Result<void> store_task_record(const std::string& folder, const std::string& task, const TaskRecord& record) {
-  return store_text_file(path_of(folder, task, ".json"),
-                         nlohmann::json(record).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-}
-
-std::optional<TaskRecord> load_task_record(const std::string& folder, const std::string& task) {
-  const auto text = read_text_file(path_of(folder, task, ".json"));
-  if (!text) return std::nullopt;
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
-  if (!json.is_object()) return std::nullopt;
-  try {
-    return json.get<TaskRecord>();
-  } catch (const nlohmann::json::exception&) {
-    return std::nullopt;
-  }
 }
 
 void forget_task(const std::string& folder, const std::string& task) {

@@ -1,4 +1,4 @@
-// Task state: which tasks run and which failed, as files that every process on a shared folder sees.
+// Task state: which tasks run, as files that every process on a shared folder sees.
 #pragma once
 
 #include <optional>
@@ -35,18 +35,6 @@ struct TaskWorker {
 /// Nothing if no process began the task, or the last one ended in order.
 std::optional<TaskWorker> worker_of(const std::string& folder, const std::string& task);
 
-/// One try of a task.
-struct TaskRecord {
-  std::string reason;  ///< why it failed; empty if it is done
-  std::string host, version, date;
-  double seconds = 0;
-  uint64_t frames = 0;  ///< that were modelled
-};
-
-/// Stores DIR/tasks/ID.json.
-Result<void> store_task_record(const std::string& folder, const std::string& task, const TaskRecord& record);
-/// Nothing if the task has not ended yet.
-std::optional<TaskRecord> load_task_record(const std::string& folder, const std::string& task);
 /// Forgets that the task failed or was cut off. A process that works on it goes on.
 void forget_task(const std::string& folder, const std::string& task);
 

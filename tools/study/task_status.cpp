@@ -1,7 +1,6 @@
 // Task status: results first, then locks, then records.
 #include "task_status.h"
 
-#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>

@@ -31,20 +31,6 @@ int write_and_flush(int fd, std::string_view text) {
 
 }  // namespace
 
-Result<std::string> read_text_file(const std::string& path) {
-  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return file_error(path);
-  std::string text;
-  char buffer[1 << 16];
-  ssize_t got = 0;
-  while ((got = read(fd, buffer, sizeof buffer)) > 0 || (got < 0 && errno == EINTR))
-    if (got > 0) text.append(buffer, static_cast<size_t>(got));
-  const int error = errno;
-  close(fd);
-  if (got < 0) return file_error(path, error);
-  return text;
-}
-
 Result<void> store_text_file(const std::string& path, std::string_view text) {
   static std::atomic<uint64_t> count{0};
   std::error_code code;

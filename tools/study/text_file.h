@@ -1,4 +1,5 @@
-// Text file: whole files of a study folder, which several processes on several hosts write at the same time.
+// Text file: stores a whole file of a study folder, which several processes on several hosts write at the
+// same time.
 #pragma once
 
 #include <string>
@@ -7,9 +8,6 @@
 #include "tilepress/result.h"
 
 namespace tilepress {
-
-/// Error: kFile, the path first.
-Result<std::string> read_text_file(const std::string& path);
 
 /// Replaces the file in one step, after its bytes have reached the disk. Each call writes under a name of its
 /// own before, so that calls for one path never mix. Makes the folder. Error: kFile, the path first.

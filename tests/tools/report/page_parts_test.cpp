@@ -77,7 +77,7 @@ TEST(HtmlText, SlotsAreFilledOnceAndUnknownOnesVanish) {
 }
 
 TEST(Table, CellsCarryTheirExactValue) {
-  Table table{.id = "t",
+  Table table{.name = "t",
               .caption = "c",
               .header = {"name", "rate"},
               .rows = {{text_cell("a"), number_cell(1.0 / 3)}}};

@@ -111,30 +111,26 @@ TEST(Bounds, OfWebpKeepTheColoursOfTransparentPixels) {
 }
 
 /// One frame of each of two surfaces, and a second frame of the first.
-class TwoFormats : public FrameFeed {
- public:
-  Result<bool> next(FedFrame& out) override {
-    if (next_ == 3) return false;
-    const bool second = next_ == 1;
-    out = {.frame = next_ / 2, .surface = second, .view = frame_.view(second ? PixelFormat::kRgb565 : PixelFormat::kRgba8)};
-    ++next_;
+FrameFeed two_formats() {
+  return [frame = SmallFrame(), next = uint64_t{0}](FedFrame& out) mutable -> Result<bool> {
+    if (next == 3) return false;
+    const bool second = next == 1;
+    out = {.frame = next / 2,
+           .surface = second,
+           .view = frame.view(second ? PixelFormat::kRgb565 : PixelFormat::kRgba8)};
+    ++next;
     return true;
-  }
-
- private:
-  SmallFrame frame_;
-  uint64_t next_ = 0;
-};
+  };
+}
 
 TEST(Bounds, LeaveOutSurfacesWithoutEightBitChannels) {
-  TwoFormats feed;
   const std::atomic<int> stop = 0;
   std::atomic<uint64_t> done = 0;
-  const auto rows = model_bounds(feed, RunOptions(), stop, done);
+  const auto rows = model_bounds(two_formats(), RunOptions(), stop, done);
   ASSERT_TRUE(rows && *rows);
   EXPECT_EQ(done, 3u);
   EXPECT_EQ((*rows)->skipped, std::vector<std::string>{"surface 1: the bounds do not support RGB565"});
-  ASSERT_EQ((*rows)->schemes.size(), bounds().size());
+  ASSERT_EQ((*rows)->schemes.size(), bound_names().size());
   for (const std::string& text : (*rows)->schemes) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3) << text;  // header, warm-up, frame 1
     EXPECT_NE(text.find("\n1,0,"), std::string::npos);

@@ -56,26 +56,30 @@ TEST(Shards, TakeEachTaskOnce) {
 
 TEST(ResultNames, DependOnFramesConfigurationAndOptionsAlone) {
   RunOptions options;
-  const ResultStore store("out", options);
+  const ResultStore store("out", options, "w", "f");
   const SchemeSpec vdcp = *parse_scheme("vdcp"), same = *parse_scheme("vdcp:fvc=64");
-  EXPECT_EQ(store.result_path("w", "f", vdcp), store.result_path("w", "f", same));
-  std::set<std::string> keys = {store.result_key("f", vdcp), store.result_key("g", vdcp),
-                                store.result_key("f", *parse_scheme("vdcp:fvc=32"))};
+  EXPECT_EQ(store.result_path(vdcp), store.result_path(same));
+  std::set<std::string> keys = {store.result_key(vdcp),
+                                ResultStore("out", options, "w", "g").result_key(vdcp),
+                                store.result_key(*parse_scheme("vdcp:fvc=32"))};
   options.model.burst_bits = 256;
-  keys.insert(ResultStore("out", options).result_key("f", vdcp));
+  keys.insert(ResultStore("out", options, "w", "f").result_key(vdcp));
   options = RunOptions();
   options.every = 2;
-  keys.insert(ResultStore("out", options).result_key("f", vdcp));
+  keys.insert(ResultStore("out", options, "w", "f").result_key(vdcp));
   EXPECT_EQ(keys.size(), 5u);
 }
 
 TEST(ResultNames, OfMetricsDependOnFramesAndWhichAreModelled) {
+  const auto metrics = [](const RunOptions& options) {
+    return ResultStore("out", options, "w", "f").frames_path();
+  };
   RunOptions options;
   options.model.burst_bits = 256;
   options.model.tile_side = 64;
-  EXPECT_EQ(ResultStore("out", options).frames_path("w", "f"), ResultStore("out", {}).frames_path("w", "f"));
+  EXPECT_EQ(metrics(options), metrics({}));
   options.every = 3;
-  EXPECT_NE(ResultStore("out", options).frames_path("w", "f"), ResultStore("out", {}).frames_path("w", "f"));
+  EXPECT_NE(metrics(options), metrics({}));
 }
 
 }  // namespace

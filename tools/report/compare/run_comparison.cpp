@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "report/run_batch.h"
 #include "study/configuration.h"
+#include "tilepress/run_option_table.h"
 
 namespace tilepress {
 namespace {
@@ -41,6 +44,25 @@ std::vector<std::string> missing_from(const std::vector<std::string>& others,
   return out;
 }
 
+std::string shown(const nlohmann::json& value) {
+  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  return text.empty() ? "none" : text;
+}
+
+/// "tile 32 in A, 64 in B" for each option that changes rows, that both run.json files name, and that
+/// differs. The schemes are left out, and --verify, which changes no size.
+std::vector<std::string> option_differences(const std::string& run_a, const std::string& run_b) {
+  const auto a = run_document(run_a)["options"], b = run_document(run_b)["options"];
+  std::vector<std::string> out;
+  for (const RunOption& option : run_option_table()) {
+    const std::string key(option.json.key);
+    if (option.rows == RowsEffect::kNone || option.name == "scheme" || option.name == "verify") continue;
+    if (!a.contains(key) || !b.contains(key) || a[key] == b[key]) continue;
+    out.push_back(std::string(option.name) + " " + shown(a[key]) + " in A, " + shown(b[key]) + " in B");
+  }
+  return out;
+}
+
 }  // namespace
 
 size_t scheme_position(const std::vector<std::string>& names, const std::string& scheme) {
@@ -52,6 +74,7 @@ size_t scheme_position(const std::vector<std::string>& names, const std::string&
 RunComparison compare_runs(const RunRecord& a, const RunRecord& b, const FrameSet& frames,
                            const std::vector<SchemePair>& map) {
   RunComparison out;
+  out.options = option_differences(a.path, b.path);
   std::vector<SchemePair> schemes = map;
   if (map.empty()) {
     out.schemes_only_a = missing_from(b.scheme_names, a.scheme_names);

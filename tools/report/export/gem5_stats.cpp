@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "report/html_text.h"
 #include "report/scheme_names.h"
 
 namespace tilepress {
@@ -87,12 +88,7 @@ std::string frame_dump(const RunRecord& run, const std::string& prefix, const Fr
 }  // namespace
 
 std::string gem5_name(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-    out += plain ? c : '_';
-  }
-  return out.empty() ? "run" : out;
+  return file_slug(text, "");
 }
 
 std::string gem5_stats(const RunRecord& run, const std::string& prefix, bool per_frame) {

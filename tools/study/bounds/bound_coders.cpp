@@ -12,12 +12,6 @@ namespace {
 
 enum BoundIndex : size_t { kLz4Block, kZstdBlock, kLz4Frame, kZstdFrame, kWebpFrame };
 
-constexpr Bound kBounds[] = {{"lz4_block", "LZ4, each block alone"},
-                             {"zstd_block", "zstd, each block alone"},
-                             {"lz4_frame", "LZ4, whole frame"},
-                             {"zstd_frame", "zstd, whole frame"},
-                             {"webp_frame", "WebP lossless, whole frame"}};
-
 constexpr int kZstdLevel = 3, kWebpLevel = 0;
 /// Magic number, descriptor and content size of a zstd frame of 256 bytes.
 constexpr size_t kZstdHeaderBytes = 4 + 1 + 2;
@@ -75,14 +69,10 @@ struct BoundCoders::Contexts {
   std::vector<uint32_t> pixels;  ///< of a frame, tight
 };
 
-std::span<const Bound> bounds() {
-  return kBounds;
-}
-
-std::vector<std::string> bound_names() {
-  std::vector<std::string> names;
-  for (const Bound& bound : kBounds) names.emplace_back(bound.name);
-  return names;
+const std::vector<std::string>& bound_names() {
+  static const std::vector<std::string> kNames = {"lz4_block", "zstd_block", "lz4_frame", "zstd_frame",
+                                                  "webp_frame"};
+  return kNames;
 }
 
 bool has_bounds(PixelFormat format) {
@@ -134,7 +124,7 @@ Result<void> BoundCoders::measure(const PixelPlane& frame, uint32_t burst_bits,
   empty.blocks = frame.blocks();
   empty.raw_bits = frame.blocks() * kRawBlockBits;
   empty.burst_bits = burst_bits;
-  out.assign(std::size(kBounds), empty);
+  out.assign(bound_names().size(), empty);
   measure_blocks(frame, out[kLz4Block], out[kZstdBlock]);
   std::vector<uint32_t>& pixels = contexts_->pixels;
   pixels.clear();

@@ -13,15 +13,9 @@
 
 namespace tilepress {
 
-/// One general compressor, on each block alone or on the whole frame.
-struct Bound {
-  const char* name;   ///< in tables
-  const char* title;  ///< for people
-};
-
-/// lz4_block, zstd_block, lz4_frame, zstd_frame, webp_frame.
-std::span<const Bound> bounds();
-std::vector<std::string> bound_names();
+/// General compressors, on each block alone or on the whole frame: lz4_block, zstd_block, lz4_frame,
+/// zstd_frame, webp_frame.
+const std::vector<std::string>& bound_names();
 
 /// The coders and their memory. Not thread-safe.
 ///   lz4   LZ4_compress_default: the default level, no frame around the data
@@ -35,9 +29,9 @@ class BoundCoders {
   BoundCoders(const BoundCoders&) = delete;
   BoundCoders& operator=(const BoundCoders&) = delete;
 
-  /// Fills `out` in the order of bounds(). Blocks and frames are stored raw where compression saves nothing, and
-  /// fill whole bursts. No status bits are counted. A frame that WebP cannot hold has `skipped` set there.
-  /// Precondition: `frame` has 8-bit channels. Error: kSystem, libwebp failed.
+  /// Fills `out` in the order of bound_names(). Blocks and frames are stored raw where compression saves
+  /// nothing, and fill whole bursts. No status bits are counted. A frame that WebP cannot hold has `skipped`
+  /// set there. Precondition: `frame` has 8-bit channels. Error: kSystem, libwebp failed.
   Result<void> measure(const PixelPlane& frame, uint32_t burst_bits, std::vector<SchemeStatistics>& out);
 
  private:

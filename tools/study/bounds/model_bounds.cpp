@@ -8,10 +8,10 @@
 
 namespace tilepress {
 
-Result<std::optional<ModelRows>> model_bounds(FrameFeed& feed, const RunOptions& options,
+Result<std::optional<ModelRows>> model_bounds(const FrameFeed& feed, const RunOptions& options,
                                               const std::atomic<int>& stop,
                                               std::atomic<uint64_t>& frames_done) {
-  const std::vector<std::string> names = bound_names();
+  const std::vector<std::string>& names = bound_names();
   ModelRows rows;
   rows.schemes.assign(names.size(), schemes_csv_header());
   BoundCoders coders;
@@ -20,7 +20,7 @@ Result<std::optional<ModelRows>> model_bounds(FrameFeed& feed, const RunOptions&
   FrameStatistics statistics;
   FedFrame frame;
   while (stop == 0) {
-    const auto fed = feed.next(frame);
+    const auto fed = feed(frame);
     if (!fed) return fed.error();
     if (!*fed) return std::optional(std::move(rows));
     if (!options.takes(frame.frame)) continue;

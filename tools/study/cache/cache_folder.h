@@ -12,6 +12,7 @@ namespace tilepress {
 
 constexpr const char* kCacheSuffix = ".frames";
 
+/// $XDG_CACHE_HOME/tilepress/frames, or ~/.cache/tilepress/frames.
 std::string default_cache_folder();
 std::string cache_path(const std::string& folder, const std::string& key);
 

@@ -3,16 +3,16 @@
 
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include "frames/little_endian.h"
-#include "study/cache/cache_origin.h"
 #include "study/cache/file_bytes.h"
 #include "tilepress/file_digest.h"
 
@@ -30,6 +30,47 @@ Error damaged(std::string text) {
 }
 Error torn() {
   return damaged("is torn or no whole frame cache");
+}
+
+// The members of the origin, which is JSON.
+constexpr std::pair<const char*, std::string CacheOrigin::*> kTexts[] = {
+    {"key", &CacheOrigin::key},
+    {"input", &CacheOrigin::input},
+    {"input_sha256", &CacheOrigin::input_sha256},
+    {"gl_vendor", &CacheOrigin::gl_vendor},
+    {"gl_renderer", &CacheOrigin::gl_renderer},
+    {"gl_version", &CacheOrigin::gl_version},
+    {"retracer", &CacheOrigin::retracer},
+    {"pixel_options", &CacheOrigin::pixel_options},
+    {"frame_set", &CacheOrigin::frame_set},
+    {"version", &CacheOrigin::version},
+    {"rendered", &CacheOrigin::rendered},
+    {"reason", &CacheOrigin::reason},
+};
+constexpr std::pair<const char*, uint64_t CacheOrigin::*> kCounts[] = {
+    {"expected_frames", &CacheOrigin::expected_frames},
+    {"unsupported_frames", &CacheOrigin::unsupported_frames},
+};
+
+std::string origin_text(const CacheOrigin& origin) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [name, member] : kTexts) json[name] = origin.*member;
+  for (const auto& [name, member] : kCounts) json[name] = origin.*member;
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+/// Unknown members are skipped, missing ones stay empty. Error: kBadBits.
+Result<CacheOrigin> parse_origin(std::string_view text) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) return Error{ErrorKind::kBadBits, "the origin is no JSON object"};
+  CacheOrigin origin;
+  for (const auto& [name, member] : kTexts)
+    if (const auto found = json.find(name); found != json.end() && found->is_string())
+      origin.*member = found->get<std::string>();
+  for (const auto& [name, member] : kCounts)
+    if (const auto found = json.find(name); found != json.end() && found->is_number_unsigned())
+      origin.*member = found->get<uint64_t>();
+  return origin;
 }
 
 /// What the digest of all frames is computed over.
@@ -152,10 +193,10 @@ Result<CacheIndex> read_cache_index(int fd) {
   struct stat status {};
   if (fstat(fd, &status) != 0) return Error{ErrorKind::kFile, std::strerror(errno)};
   CacheIndex index;
-  index.file_bytes = static_cast<uint64_t>(status.st_size);
-  if (index.file_bytes < kCacheHeaderBytes + kCacheFooterBytes) return torn();
+  const auto whole_bytes = static_cast<uint64_t>(status.st_size);
+  if (whole_bytes < kCacheHeaderBytes + kCacheFooterBytes) return torn();
   std::string footer(kCacheFooterBytes, '\0');
-  const uint64_t footer_at = index.file_bytes - kCacheFooterBytes;
+  const uint64_t footer_at = whole_bytes - kCacheFooterBytes;
   if (!read_at(fd, footer_at, std::as_writable_bytes(std::span(footer))))
     return Error{ErrorKind::kFile, std::strerror(errno)};
   if (std::memcmp(&footer[kCacheFooterBytes - sizeof kFrameCacheEnd], kFrameCacheEnd,
@@ -164,7 +205,7 @@ Result<CacheIndex> read_cache_index(int fd) {
   Fields fields(footer);
   const uint64_t offset = fields.take(8), count = fields.take(8), origin_bytes = fields.take(8);
   const uint64_t hash = fields.take(8), file_bytes = fields.take(8);
-  if (file_bytes != index.file_bytes || offset < kCacheHeaderBytes || offset > footer_at ||
+  if (file_bytes != whole_bytes || offset < kCacheHeaderBytes || offset > footer_at ||
       count > (footer_at - offset) / kCacheEntryBytes ||
       origin_bytes != footer_at - offset - count * kCacheEntryBytes)
     return torn();

@@ -42,7 +42,6 @@ struct CacheIndex {
   CacheOrigin origin;
   std::vector<CacheEntry> entries;
   std::string frames_digest;
-  uint64_t file_bytes = 0;
 };
 
 std::string cache_header();

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "study/cache/rendering.h"
+#include "study/cache/cached_rendering.h"
 
 namespace tilepress {
 

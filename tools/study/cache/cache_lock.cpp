@@ -8,9 +8,6 @@
 
 #include <cerrno>
 #include <condition_variable>
-#include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <optional>
 #include <sstream>
@@ -21,6 +18,7 @@
 #include "study/cache/host_name.h"
 #include "tilepress/file_error.h"
 #include "tilepress/run_folder.h"
+#include "tilepress/whole_file.h"
 
 namespace tilepress {
 namespace {
@@ -28,11 +26,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kLookPeriod{100};
 
+/// Empty if the file cannot be read.
+std::string text_of(const std::string& path) {
+  const auto text = read_whole_file(path);
+  return text ? *text : "";
+}
+
 /// When a process of this host began, in ticks since the host began. Nothing if there is no such process.
 /// Process numbers come again.
 std::optional<uint64_t> process_start(int64_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = text_of("/proc/" + std::to_string(pid) + "/stat");
   const size_t name_end = text.rfind(')');
   if (name_end == std::string::npos) return std::nullopt;
   std::istringstream fields(text.substr(name_end + 1));
@@ -46,11 +49,6 @@ std::optional<uint64_t> process_start(int64_t pid) {
 std::string own_mark() {
   return host_name() + "\n" + std::to_string(getpid()) + "\n" + std::to_string(own_pid_namespace()) + "\n" +
          std::to_string(process_start(getpid()).value_or(0)) + "\n";
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 bool is_of_dead_process(const std::string& mark) {

@@ -1,7 +1,6 @@
 // Cache lock: one process at a time renders a key, also on a folder that several hosts share.
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>

@@ -2,8 +2,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <map>
 #include <new>
 #include <optional>
@@ -116,9 +114,6 @@ FrameCacheReader FrameCacheReader::another() const {
   return out;
 }
 
-const std::string& FrameCacheReader::path() const {
-  return state_->file->path;
-}
 const CacheOrigin& FrameCacheReader::origin() const {
   return state_->file->index.origin;
 }
@@ -130,9 +125,6 @@ const CachedFrame& FrameCacheReader::header(uint64_t index) const {
 }
 const std::string& FrameCacheReader::frames_digest() const {
   return state_->file->index.frames_digest;
-}
-uint64_t FrameCacheReader::file_bytes() const {
-  return state_->file->index.file_bytes;
 }
 uint64_t FrameCacheReader::raw_bytes() const {
   return state_->file->raw_bytes;

@@ -107,12 +107,4 @@ Result<void> FrameCacheWriter::finish(const CacheOrigin& origin) {
   return {};
 }
 
-uint64_t FrameCacheWriter::frame_count() const {
-  return state_->entries.size();
-}
-
-uint64_t FrameCacheWriter::file_bytes() const {
-  return state_->offset;
-}
-
 }  // namespace tilepress

@@ -44,14 +44,11 @@ Result<CachedRendering> find_or_render(const ReplayInput& input, const RenderOpt
   const auto key = cache_key(input, options);
   if (!key) return key.error();
   const std::string folder = folder_of(options), path = cache_path(folder, key->key);
-  if (!options.render_again) {
-    // A damaged file is reported by the process that replaces it.
-    if (auto found = look(path, key->key, false)) return *found;
-  }
+  // A damaged file is reported by the process that replaces it.
+  if (const auto found = look(path, key->key, false)) return *found;
   std::error_code code;
   fs::create_directories(folder, code);
   if (code) return Error{ErrorKind::kFile, folder + ": " + code.message()};
-  std::optional<CachedRendering> found;
   CacheLock lock;
   bool waited = false;
   const auto taken = lock.take(path + ".lock", [&] {
@@ -61,8 +58,7 @@ Result<CachedRendering> find_or_render(const ReplayInput& input, const RenderOpt
   });
   if (!taken) return about(input.path, taken.error());
   if (!*taken) return Error{ErrorKind::kSystem, input.path + ": interrupted"};
-  if (!options.render_again || waited) found = look(path, key->key, true);
-  if (found) return *found;
+  if (const auto found = look(path, key->key, true)) return *found;
   const auto rendered = render_trace(input, options, *key, path, stop);
   if (!rendered) return rendered.error();
   apply_size_limit(folder, options.size_limit_bytes);

@@ -2,6 +2,7 @@
 #include "study/cache/changed_units.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace tilepress {

@@ -1,9 +1,7 @@
 // Changed units: which 64-byte units of a frame differ from the frame before.
 #pragma once
 
-#include <bit>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 

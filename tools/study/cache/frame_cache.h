@@ -62,9 +62,6 @@ class FrameCacheWriter {
   /// Writes the index and renames the file to `path`, over an older one.
   Result<void> finish(const CacheOrigin& origin);
 
-  uint64_t frame_count() const;
-  uint64_t file_bytes() const;  ///< written so far
-
  private:
   struct State;
   std::unique_ptr<State> state_;
@@ -85,7 +82,6 @@ class FrameCacheReader {
   /// A reader of the same open file for another thread. Cheap: the index is shared.
   FrameCacheReader another() const;
 
-  const std::string& path() const;
   const CacheOrigin& origin() const;
   uint64_t frame_count() const;
   /// Frames are in the order in which they were presented, over all surfaces. Precondition: index <
@@ -94,7 +90,6 @@ class FrameCacheReader {
   /// SHA-256 over the headers (without times) and the checksums of all pixels, 64 hexadecimal digits: equal
   /// for equal frames, however and whenever they were rendered.
   const std::string& frames_digest() const;
-  uint64_t file_bytes() const;
   uint64_t raw_bytes() const;  ///< pixels of all frames
 
   /// Decodes a frame. The pixels belong to the reader and stay valid until the next view() or read(). Errors:

@@ -21,7 +21,6 @@ class FramePacker {
   /// between two calls, and not during the last one. `last`: a dump that is missing is an error. Errors:
   /// those of FrameCacheWriter::add(), kFile.
   Result<void> pack(const std::string& run_path, bool last);
-  uint64_t packed() const { return packed_; }
 
  private:
   Result<bool> pack_frame(const std::string& run_path, const CachedFrame& frame, bool last);

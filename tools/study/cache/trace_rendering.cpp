@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <csignal>
-#include <ctime>
 #include <filesystem>
 #include <thread>
 
 #include "study/cache/frame_cache.h"
 #include "study/cache/frame_packer.h"
 #include "temporary_folder.h"
+#include "tilepress/utc_time.h"
 
 namespace tilepress {
 namespace {
@@ -44,15 +44,6 @@ std::string running_run(const std::string& output) {
     for (const auto& run : fs::directory_iterator(attempt.path() / "runs", code))
       if (fs::exists(run.path() / "frames.csv", code)) found = std::max(found, run.path().string());
   return found;
-}
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
 }
 
 CacheOrigin origin_of(const ReplayInput& input, const CacheKey& key, const ReplayResult& result) {

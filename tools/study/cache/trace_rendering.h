@@ -5,7 +5,6 @@
 #include <string>
 
 #include "study/cache/cache_key.h"
-#include "study/cache/rendering.h"
 
 namespace tilepress {
 

@@ -1,6 +1,7 @@
 // Axis figures: a value against the values of one key.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "study/figures/axis_points.h"
@@ -27,7 +28,7 @@ double relative(double value, const FigureSpec& spec, double base) {
 }
 
 void add_category_rows(const StudyData& data, const FigureSpec& spec, const AxisValue& shown,
-                       const std::vector<AxisPoint>& points, FigureTable& table) {
+                       const std::vector<AxisPoint>& points, StudyTable& table) {
   for (const std::string& category : drawn_categories(data, spec)) {
     const double base = data.mean(category, spec.normalized_to, shown.mean_column);
     for (const AxisPoint& point : points) {
@@ -46,11 +47,10 @@ void add_category_rows(const StudyData& data, const FigureSpec& spec, const Axis
 }
 
 void add_workload_rows(const StudyData& data, const FigureSpec& spec, const AxisValue& shown,
-                       const std::vector<AxisPoint>& points, FigureTable& table) {
-  for (const size_t row : data.ordered_workloads()) {
+                       const std::vector<AxisPoint>& points, StudyTable& table) {
+  for (const size_t row : drawn_workloads(data, spec)) {
     const std::string& workload = data.workloads.text(row, "workload");
     const std::string& category = data.workloads.text(row, "category");
-    if (!shows_workload(spec, workload) || !shows_category(spec, category)) continue;
     const double base = data.result(workload, spec.normalized_to, shown.result_column);
     for (const AxisPoint& point : points) {
       const double value =
@@ -63,8 +63,8 @@ void add_workload_rows(const StudyData& data, const FigureSpec& spec, const Axis
 
 Result<Figure> axis_figure(const StudyData& data, const FigureSpec& spec, const AxisValue& shown,
                            const std::string& value_name) {
-  const FigureAxis* axis = data.spec.find_axis(spec.axis);
-  if (axis == nullptr)
+  const auto axis = std::ranges::find(data.spec.axes, spec.axis, &FigureAxis::name);
+  if (axis == data.spec.axes.end())
     return Error{ErrorKind::kBadValue, fmt::format("the study has no axis '{}'", spec.axis)};
   const std::vector<AxisPoint> points = axis_points(data, *axis);
   if (points.empty())

@@ -4,22 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tilepress/csv_table.h"
-
 namespace tilepress {
 namespace {
 
 constexpr double kLogarithmicSpan = 16;
 
-/// The number of a value, NaN for a word.
-double number_of(const std::string& text) {
-  double value = 0;
-  return read_csv(text, value) ? value : NAN;
-}
-
 /// Position on the axis: numbers by size, then words.
 double order_of(const AxisPoint& point) {
-  const double number = number_of(point.value);
+  const double number = number_or_nan(point.value);
   return std::isnan(number) ? INFINITY : number;
 }
 
@@ -32,7 +24,7 @@ void join_default(const StudyData& data, const FigureAxis& axis, std::vector<Axi
     const bool known =
         value.empty() || std::any_of(points.begin(), points.end(),
                                      [&](const AxisPoint& point) { return point.value == value; });
-    const bool words = !points.empty() && std::isnan(number_of(points.front().value));
+    const bool words = !points.empty() && std::isnan(number_or_nan(points.front().value));
     if (!known) points.insert(words ? points.begin() : points.end(), {value, axis.scheme});
     return;
   }
@@ -55,7 +47,7 @@ std::string axis_scale(const std::vector<AxisPoint>& points) {
   double low = INFINITY, high = 0;
   bool powers = true;
   for (const AxisPoint& point : points) {
-    const double value = number_of(point.value);
+    const double value = number_or_nan(point.value);
     if (std::isnan(value)) return "categories";
     low = std::min(low, value);
     high = std::max(high, value);

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "counted.h"
+#include "study/figures/document_table.h"
 #include "study/figures/figure_makers.h"
 #include "study/figures/hybrid_blocks.h"
 #include "tilepress/cost_model.h"
@@ -17,52 +18,28 @@ namespace tilepress {
 namespace {
 
 constexpr double kCoverageThreshold = 0.7;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The rule's category as the study spells it.
 std::string spelled(const StudyData& data, const ClaimRule& rule) {
   return data.spelled_category(rule.category);
 }
 
-double mean_of(const std::vector<double>& values) {
-  return values.empty() ? kNone : std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
-}
-
-/// Rows of workloads.csv with results, of a category.
-std::vector<size_t> workloads_of(const StudyData& data, const std::string& category) {
-  std::vector<size_t> rows;
-  for (const size_t row : data.ordered_workloads())
-    if (category == kAllCategories || data.workloads.text(row, "category") == category) rows.push_back(row);
-  return rows;
-}
-
-/// The workload with the median entropy of its category: neither its plainest nor its richest.
-std::optional<size_t> stand_in(const StudyData& data, const std::string& category) {
-  std::vector<size_t> rows = workloads_of(data, category);
-  std::erase_if(rows, [&](size_t row) { return std::isnan(data.workloads.number(row, "entropy")); });
-  if (rows.empty()) return std::nullopt;
-  const auto entropy = [&](size_t row) { return data.workloads.number(row, "entropy"); };
-  std::stable_sort(rows.begin(), rows.end(), [&](size_t a, size_t b) { return entropy(a) < entropy(b); });
-  return rows[(rows.size() - 1) / 2];
-}
-
-/// Values of the rule's column of results.csv, one per workload of the category.
-std::vector<double> result_values(const StudyData& data, const ClaimRule& rule, double least_coverage) {
+/// The values of the rule, one per workload of the category that has one.
+std::vector<double> workload_values_of(const StudyData& data, const ClaimRule& rule) {
   std::vector<double> values;
-  for (const size_t row : workloads_of(data, spelled(data, rule))) {
+  for (const size_t row : data.workloads_of(spelled(data, rule))) {
     const std::string& workload = data.workloads.text(row, "workload");
-    const double value = data.result(workload, rule.configuration, rule.column);
-    if (std::isfinite(value) && !(data.workloads.number(row, "fvc_coverage") < least_coverage))
+    double value = data.result(workload, rule.configuration, rule.column);
+    if (rule.source == ClaimSource::kWorkloadMean) value = data.workloads.number(row, rule.column);
+    if (rule.source == ClaimSource::kHybridShare) {
+      const HybridBlocks blocks = hybrid_blocks(data, workload, rule.configuration);
+      value = blocks.vdcp_only() / (blocks.vdcp_only() + blocks.ras_only());
+    }
+    const bool covered = !(data.workloads.number(row, "fvc_coverage") < kCoverageThreshold);
+    if (std::isfinite(value) && (covered || rule.source != ClaimSource::kLowestCovered))
       values.push_back(value);
   }
   return values;
-}
-
-std::vector<double> hybrid_values(const StudyData& data, const ClaimRule& rule) {
-  return workload_values(data, spelled(data, rule), [&](const std::string& workload) {
-    const HybridBlocks blocks = hybrid_blocks(data, workload, rule.configuration);
-    return blocks.vdcp_only() / (blocks.vdcp_only() + blocks.ras_only());
-  });
 }
 
 /// "2 of 3 workloads are shorter than the period." Empty if all are longer or the claim is about no period.
@@ -72,7 +49,7 @@ std::string short_workloads(const StudyData& data, const ClaimRule& rule) {
   const size_t at = configuration.find(kPeriod);
   double period = 0;
   if (at == std::string_view::npos || !read_csv(configuration.substr(at + kPeriod.size()), period)) return "";
-  const std::vector<size_t> rows = workloads_of(data, spelled(data, rule));
+  const std::vector<size_t> rows = data.workloads_of(spelled(data, rule));
   const auto is_short = [&](size_t row) { return data.workloads.number(row, "frames") <= period; };
   const auto count = std::count_if(rows.begin(), rows.end(), is_short);
   if (count == 0) return "";
@@ -93,33 +70,24 @@ Claim claim_on_means(const StudyData& data, const ClaimRule& rule) {
 }
 
 Claim claim_on_workloads(const StudyData& data, const ClaimRule& rule) {
-  const auto workload_column = [&](const std::string& category) {
-    std::vector<double> values;
-    for (const size_t row : workloads_of(data, category)) {
-      const double value = data.workloads.number(row, rule.column);
-      if (std::isfinite(value)) values.push_back(value);
-    }
-    return values;
-  };
-  const bool lowest = rule.source == ClaimSource::kLowestCovered;
-  std::vector<double> values;
-  if (rule.source == ClaimSource::kWorkloadMean)
-    values = workload_column(spelled(data, rule));
-  else if (rule.source == ClaimSource::kHybridShare)
-    values = hybrid_values(data, rule);
-  else
-    values = result_values(data, rule, lowest ? kCoverageThreshold : 0);
-  Claim claim{rule, mean_of(values), values.size()};
-  if (!values.empty() && lowest) claim.ours = *std::min_element(values.begin(), values.end());
-  if (!values.empty() && rule.source == ClaimSource::kLargest)
-    claim.ours = *std::max_element(values.begin(), values.end());
+  const std::vector<double> values = workload_values_of(data, rule);
+  if (values.empty()) return {rule, NAN, 0};
+  Claim claim{rule, std::accumulate(values.begin(), values.end(), 0.0) / double(values.size()),
+              values.size()};
+  if (rule.source == ClaimSource::kLowestCovered) claim.ours = std::ranges::min(values);
+  if (rule.source == ClaimSource::kLargest) claim.ours = std::ranges::max(values);
   return claim;
 }
 
+/// The workload with the median entropy of its category stands in: neither its plainest nor its richest.
 Claim claim_on_stand_in(const StudyData& data, const ClaimRule& rule) {
-  const auto row = stand_in(data, spelled(data, rule));
-  if (!row) return {rule, kNone, 0};
-  return {rule, data.workloads.number(*row, rule.column), 1, data.workloads.text(*row, "workload")};
+  std::vector<size_t> rows = data.workloads_of(spelled(data, rule));
+  const auto entropy = [&](size_t row) { return data.workloads.number(row, "entropy"); };
+  std::erase_if(rows, [&](size_t row) { return std::isnan(entropy(row)); });
+  if (rows.empty()) return {rule, NAN, 0};
+  std::ranges::stable_sort(rows, {}, entropy);
+  const size_t row = rows[(rows.size() - 1) / 2];
+  return {rule, data.workloads.number(row, rule.column), 1, data.workloads.text(row, "workload")};
 }
 
 Claim make_claim(const StudyData& data, const ClaimRule& rule) {
@@ -145,6 +113,20 @@ struct UnitText {
 constexpr UnitText kUnits[] = {{"rate", ""},    {"share", " %"}, {"bits per pixel", " bit"}, {"bytes", " B"},
                                {"mm2", " mm²"}, {"mW", " mW"},   {"pJ per byte", " pJ"}};
 
+std::string deviation_text(double deviation) {
+  constexpr double kRoundsToZero = 0.0005;
+  if (!std::isfinite(deviation)) return "–";
+  if (std::abs(deviation) < kRoundsToZero) return "0.0 %";
+  return fmt::format("{:+.1f} %", deviation * 100);
+}
+
+std::string remark_of(const Claim& claim) {
+  std::string out = claim.stands_for.empty() ? "" : "Here: " + claim.stands_for + ".";
+  for (const std::string& text : {std::string(claim.rule.note), claim.reason})
+    if (!text.empty()) out += (out.empty() ? "" : " ") + text;
+  return out;
+}
+
 }  // namespace
 
 std::vector<Claim> make_claims(const StudyData& data) {
@@ -162,62 +144,45 @@ std::string claim_value(double value, ClaimUnit unit) {
   return fmt::format("{:.2f}{}", value, suffix);
 }
 
-namespace {
-
-std::string deviation_text(double deviation) {
-  constexpr double kRoundsToZero = 0.0005;
-  if (!std::isfinite(deviation)) return "–";
-  if (std::abs(deviation) < kRoundsToZero) return "0.0 %";
-  return fmt::format("{:+.1f} %", deviation * 100);
-}
-
-std::string remark_of(const Claim& claim) {
-  std::string out = claim.stands_for.empty() ? "" : "Here: " + claim.stands_for + ".";
-  for (const std::string& text : {std::string(claim.rule.note), claim.reason})
-    if (!text.empty()) out += (out.empty() ? "" : " ") + text;
-  return out;
-}
-
-}  // namespace
-
-DocumentTable claims_table(const std::vector<Claim>& claims) {
-  DocumentTable table{.name = "claims", .caption = "What the paper states, and what this study measures"};
-  table.header = {"claim", "category", "paper", "this study", "deviation", "workloads", "remark"};
-  table.text_columns = 2;
-  table.wrapped = {0, 6};
+Table claims_table(const std::vector<Claim>& claims) {
+  Table table{.name = "claims",
+              .caption = "What the paper states, and what this study measures",
+              .header = {"claim", "category", "paper", "this study", "deviation", "workloads", "remark"},
+              .text_columns = 2,
+              .wrapped = {0, 6},
+              .note =
+                  "deviation = this study / paper − 1, for a gain that of 1 + gain. The paper has 92 UI, 20 "
+                  "2D and 12 3D "
+                  "applications for Android. A claim about one application stands beside the workload of its "
+                  "category with "
+                  "the median entropy."};
   for (const Claim& claim : claims) {
     const auto value = [&](double number) {
-      return DocumentCell{claim_value(number, claim.rule.unit), number_cell_text(number)};
+      return Cell{claim_value(number, claim.rule.unit), number_cell_text(number)};
     };
-    table.rows.push_back({document_text(claim.rule.text),
-                          document_text(claim.rule.category),
+    table.rows.push_back({text_cell(claim.rule.text),
+                          text_cell(claim.rule.category),
                           value(claim.rule.published),
                           value(claim.ours),
                           {deviation_text(claim.deviation()), number_cell_text(claim.deviation())},
-                          document_text(claim.workloads > 0 ? std::to_string(claim.workloads) : ""),
-                          document_text(remark_of(claim))});
+                          text_cell(claim.workloads > 0 ? std::to_string(claim.workloads) : ""),
+                          text_cell(remark_of(claim))});
   }
-  table.note =
-      "deviation = this study / paper − 1, for a gain that of 1 + gain. The paper has 92 UI, 20 2D and 12 3D "
-      "applications for Android. A "
-      "claim about one application stands beside the workload of its category with the median entropy.";
   return table;
 }
 
 std::string claims_csv(const std::vector<Claim>& claims) {
-  DocumentTable table;
-  table.header = {"id",        "section", "claim",     "category",  "configuration", "unit",
-                  "published", "ours",    "deviation", "workloads", "stands_for",    "note"};
+  Table table{.header = {"id", "section", "claim", "category", "configuration", "unit", "published", "ours",
+                         "deviation", "workloads", "stands_for", "note"}};
   for (const Claim& claim : claims) {
     const ClaimRule& rule = claim.rule;
-    table.rows.push_back({document_text(rule.id), document_text(rule.section), document_text(rule.text),
-                          document_text(rule.category), document_text(rule.configuration),
-                          document_text(kUnits[static_cast<size_t>(rule.unit)].name),
-                          document_exact(rule.published), document_exact(claim.ours),
-                          document_exact(claim.deviation()), document_count(claim.workloads),
-                          document_text(claim.stands_for), document_text(remark_of(claim))});
+    table.rows.push_back({text_cell(rule.id), text_cell(rule.section), text_cell(rule.text),
+                          text_cell(rule.category), text_cell(rule.configuration),
+                          text_cell(kUnits[static_cast<size_t>(rule.unit)].name), exact_cell(rule.published),
+                          exact_cell(claim.ours), exact_cell(claim.deviation()), count_cell(claim.workloads),
+                          text_cell(claim.stands_for), text_cell(remark_of(claim))});
   }
-  return table.csv();
+  return table_csv(table);
 }
 
 }  // namespace tilepress

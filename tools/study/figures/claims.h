@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "study/figures/document_table.h"
+#include "report/html_text.h"
 #include "study/figures/study_data.h"
 
 namespace tilepress {
@@ -72,7 +72,7 @@ std::vector<Claim> make_claims(const StudyData& data);
 /// The value as people read it, with its unit.
 std::string claim_value(double value, ClaimUnit unit);
 /// For people: values with units.
-DocumentTable claims_table(const std::vector<Claim>& claims);
+Table claims_table(const std::vector<Claim>& claims);
 /// Every field of every claim, shares as 0..1.
 std::string claims_csv(const std::vector<Claim>& claims);
 

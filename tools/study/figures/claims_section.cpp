@@ -38,10 +38,9 @@ std::string unit_chart(const std::vector<Claim>& claims, ClaimUnit unit, double 
 }  // namespace
 
 Section claims_section(const std::vector<Claim>& claims) {
-  Section out{.id = "claims", .heading = "What the paper states, and what this study measures"};
-  const DocumentTable table = claims_table(claims);
-  out.note = escape_html(table.note);
-  out.table = table.page_table();
+  Section out{.heading = "What the paper states, and what this study measures",
+              .table = claims_table(claims)};
+  out.note = escape_html(out.table.note);
   const std::string rates = unit_chart(claims, ClaimUnit::kRate, 1, "compression rate",
                                        "Rates of the paper and of this study. The table has all figures.");
   const std::string shares = unit_chart(claims, ClaimUnit::kShare, kPercent, "percent",

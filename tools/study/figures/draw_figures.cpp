@@ -1,6 +1,4 @@
 // Draw figures: stores the script and looks for a Python that has matplotlib.
-#include "study/figures/draw_figures.h"
-
 #include <utility>
 
 #include "capture/child_process.h"
@@ -8,6 +6,9 @@
 #include "study/figures/study_outputs.h"
 
 namespace tilepress {
+
+extern const std::string_view kDrawFiguresScript, kFigureDrawingsScript;  // embedded at build time
+
 namespace {
 
 /// The exit status of the script when matplotlib is missing.
@@ -16,8 +17,9 @@ constexpr int kNoMatplotlib = 3;
 /// Debian's package serves Debian's python3, which another python3 on PATH may hide.
 constexpr const char* kPythons[] = {"python3", "/usr/bin/python3"};
 
-}  // namespace
-
+/// Stores the scripts in figures/ of the study, where users can change their style, and runs the first one,
+/// which draws the figures whose rows have changed. Returns lines for the user: what could not be drawn, and
+/// why.
 Result<std::vector<std::string>> draw_figures(const std::string& study_folder) {
   const std::pair<const char*, std::string_view> scripts[] = {{"draw_figures.py", kDrawFiguresScript},
                                                               {"figure_drawings.py", kFigureDrawingsScript}};
@@ -40,6 +42,8 @@ Result<std::vector<std::string>> draw_figures(const std::string& study_folder) {
       study_folder + "/figures: SVG and PDF were not drawn: " + (has_python ? "matplotlib" : "python3") +
       " is missing (apt-get install python3-matplotlib)"};
 }
+
+}  // namespace
 
 Result<std::vector<std::string>> write_study_outputs(const std::string& study_folder) {
   return write_study_data(study_folder, draw_figures);

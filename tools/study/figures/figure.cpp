@@ -3,55 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "report/html_text.h"
-#include "tilepress/csv_table.h"
-
 namespace tilepress {
-namespace {
-
-void append_record(const std::vector<std::string>& cells, std::string& out) {
-  for (size_t i = 0; i < cells.size(); ++i) {
-    if (i > 0) out += ',';
-    append_csv(out, cells[i]);
-  }
-  out += '\n';
-}
-
-}  // namespace
-
-std::string FigureTable::csv() const {
-  std::string out;
-  append_record(header, out);
-  for (const auto& row : rows) append_record(row, out);
-  return out;
-}
-
-bool FigureTable::has(std::string_view column) const {
-  return std::find(header.begin(), header.end(), column) != header.end();
-}
-
-const std::string& FigureTable::text(size_t row, std::string_view column) const {
-  const auto place = std::find(header.begin(), header.end(), column) - header.begin();
-  return rows[row][static_cast<size_t>(place)];
-}
-
-double FigureTable::number(size_t row, std::string_view column) const {
-  double value = 0;
-  return read_csv(text(row, column), value) ? value : NAN;
-}
-
-std::vector<std::string> FigureTable::distinct(std::string_view column) const {
-  std::vector<std::string> out;
-  for (size_t row = 0; row < rows.size(); ++row)
-    if (const std::string& cell = text(row, column); std::find(out.begin(), out.end(), cell) == out.end())
-      out.push_back(cell);
-  return out;
-}
-
 std::vector<FigureSpec> figure_specs(const StudyData& data) {
   std::vector<FigureSpec> out = data.spec.figures;
   for (FigureSpec& spec : out) {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "report/run_summary.h"
 #include "tilepress/csv_table.h"
 
 namespace tilepress {
@@ -15,24 +15,27 @@ std::string number_cell_text(double value) {
   return std::isfinite(value) ? csv_number(value) : "";
 }
 
-bool shows_workload(const FigureSpec& spec, const std::string& workload) {
-  return spec.workloads.empty() ||
-         std::any_of(spec.workloads.begin(), spec.workloads.end(), [&](const std::string& pattern) {
-           return fnmatch(pattern.c_str(), workload.c_str(), 0) == 0;
-         });
+static bool shows_category(const FigureSpec& spec, const std::string& category) {
+  return spec.categories.empty() || std::ranges::find(spec.categories, category) != spec.categories.end();
 }
 
-bool shows_category(const FigureSpec& spec, const std::string& category) {
-  return spec.categories.empty() ||
-         std::find(spec.categories.begin(), spec.categories.end(), category) != spec.categories.end();
+std::vector<size_t> drawn_workloads(const StudyData& data, const FigureSpec& spec) {
+  std::vector<size_t> rows = data.ordered_workloads();
+  std::erase_if(rows, [&](size_t row) {
+    const std::string& workload = data.workloads.text(row, "workload");
+    const auto matches = [&](const std::string& pattern) {
+      return fnmatch(pattern.c_str(), workload.c_str(), 0) == 0;
+    };
+    return !shows_category(spec, data.workloads.text(row, "category")) ||
+           (!spec.workloads.empty() && std::ranges::none_of(spec.workloads, matches));
+  });
+  return rows;
 }
 
 std::vector<std::string> drawn_categories(const StudyData& data, const FigureSpec& spec) {
   std::vector<std::string> out;
   for (const std::string& category : data.categories()) {
-    const bool published =
-        std::any_of(spec.published.begin(), spec.published.end(),
-                    [&](const PublishedPoint& point) { return point.category == category; });
+    const bool published = std::ranges::count(spec.published, category, &PublishedPoint::category) > 0;
     const bool wanted = category != kAllCategories || published || !spec.categories.empty();
     if (wanted && shows_category(spec, category)) out.push_back(category);
   }
@@ -45,7 +48,7 @@ std::string rate_label(const FigureSpec& spec) {
   return spec.value == "rate_payload" ? "rate without bursts" : "compression rate";
 }
 
-void add_bound_columns(const StudyData& data, const FigureSpec& spec, FigureTable& table) {
+void add_bound_columns(const StudyData& data, const FigureSpec& spec, StudyTable& table) {
   if (!spec.normalized_to.empty()) return;
   const bool by_workload = table.has("workload");
   for (const std::string& name : data.bound_names()) {
@@ -58,20 +61,15 @@ void add_bound_columns(const StudyData& data, const FigureSpec& spec, FigureTabl
   }
 }
 
-ValueSpread spread_of(std::vector<double> values) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (values.empty()) return {kNone, kNone, kNone, 0};
-  std::sort(values.begin(), values.end());
-  const size_t half = values.size() / 2;
-  const double median = values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-  return {values.front(), median, values.back(), values.size()};
+ValueSpread spread_of(const std::vector<double>& values) {
+  if (values.empty()) return {NAN, NAN, NAN, 0};
+  return {std::ranges::min(values), median(values), std::ranges::max(values), values.size()};
 }
 
 std::vector<double> workload_values(const StudyData& data, const std::string& category,
                                     const std::function<double(const std::string&)>& value_of) {
   std::vector<double> out;
-  for (const size_t row : data.ordered_workloads()) {
-    if (category != kAllCategories && data.workloads.text(row, "category") != category) continue;
+  for (const size_t row : data.workloads_of(category)) {
     const double value = value_of(data.workloads.text(row, "workload"));
     if (std::isfinite(value)) out.push_back(value);
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +24,8 @@ Result<Figure> coverage_against_rate(const StudyData& data, const FigureSpec& sp
 
 /// A number as a CSV cell; empty for NaN.
 std::string number_cell_text(double value);
-/// True if the figure shows the workload or the category.
-bool shows_workload(const FigureSpec& spec, const std::string& workload);
-bool shows_category(const FigureSpec& spec, const std::string& category);
+/// The rows of workloads.csv to draw, in the paper's order.
+std::vector<size_t> drawn_workloads(const StudyData& data, const FigureSpec& spec);
 /// The categories to draw: those that the figure or its published values name, otherwise all but
 /// kAllCategories unless that is the only one.
 std::vector<std::string> drawn_categories(const StudyData& data, const FigureSpec& spec);
@@ -36,14 +34,14 @@ std::string rate_label(const FigureSpec& spec);
 
 /// Adds a column per bound of the study, which figures draw as grey lines: the bound's value for the workload of
 /// each row, or else for its category. Relative values get none.
-void add_bound_columns(const StudyData& data, const FigureSpec& spec, FigureTable& table);
+void add_bound_columns(const StudyData& data, const FigureSpec& spec, StudyTable& table);
 
 /// Smallest, middle and largest of some values. NaN without values.
 struct ValueSpread {
   double minimum, median, maximum;
   size_t count;
 };
-ValueSpread spread_of(std::vector<double> values);
+ValueSpread spread_of(const std::vector<double>& values);
 /// The finite values of a category's workloads.
 std::vector<double> workload_values(const StudyData& data, const std::string& category,
                                     const std::function<double(const std::string& workload)>& value_of);

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "study/figures/figure_makers.h"
 
@@ -17,12 +16,9 @@ std::vector<std::pair<size_t, std::vector<size_t>>> rows_by_workload(const Study
   std::map<std::string, std::vector<size_t>> rows;
   for (size_t row = 0; row < table.row_count(); ++row) rows[table.text(row, "workload")].push_back(row);
   std::vector<std::pair<size_t, std::vector<size_t>>> out;
-  for (const size_t workload : data.ordered_workloads()) {
-    const auto found = rows.find(data.workloads.text(workload, "workload"));
-    if (found == rows.end() || !shows_workload(spec, found->first)) continue;
-    if (!shows_category(spec, data.workloads.text(workload, "category"))) continue;
-    out.emplace_back(workload, found->second);
-  }
+  for (const size_t workload : drawn_workloads(data, spec))
+    if (const auto found = rows.find(data.workloads.text(workload, "workload")); found != rows.end())
+      out.emplace_back(workload, found->second);
   return out;
 }
 
@@ -80,10 +76,9 @@ Result<Figure> coverage_against_rate(const StudyData& data, const FigureSpec& sp
   // A row without a frame is the workload's mean coverage and its rate.
   figure.table.header = {"workload", "category",     "configuration", "surface",
                          "frame",    "fvc_coverage", spec.value};
-  for (const size_t row : data.ordered_workloads()) {
+  for (const size_t row : drawn_workloads(data, spec)) {
     const std::string& workload = data.workloads.text(row, "workload");
     const std::string& category = data.workloads.text(row, "category");
-    if (!shows_workload(spec, workload) || !shows_category(spec, category)) continue;
     double coverage = data.result(workload, configuration, "fvc_coverage");
     if (std::isnan(coverage)) coverage = data.workloads.number(row, "fvc_coverage");
     const double rate = data.result(workload, configuration, spec.value);

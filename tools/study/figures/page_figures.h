@@ -5,29 +5,25 @@
 #include <vector>
 
 #include "report/chart_markup.h"
-#include "report/line_plot.h"
+#include "report/surface_plots.h"
 #include "study/figures/figure.h"
 
 namespace tilepress {
 
-/// Line charts, and the label of each where a picker chooses among them.
-struct PageLines {
-  std::vector<std::pair<std::string, LinePlot>> plots;
-  std::string picked;  ///< what the picker chooses: "Workload"
-};
-
 /// What a page draws of a figure: markup, or line charts for the page's script.
 struct PageChart {
   std::string html{};
-  PageLines lines{};
-  std::string remark{};  ///< what the chart leaves out
+  std::vector<SurfacePlots> lines{};  ///< one plot each
+  std::string picked{};               ///< what a picker chooses among `lines`: "Workload"
+  std::string remark{};               ///< what the chart leaves out
 };
 
+/// Precondition: make_figure() made the figure.
 PageChart page_chart(const StudyData& data, const Figure& figure);
 
 // The kinds. Line charts:
-PageChart axis_lines(const StudyData& data, const Figure& figure);
-PageChart workload_lines(const StudyData& data, const Figure& figure);
+/// Bars if the axis has mostly words.
+PageChart axis_chart(const StudyData& data, const Figure& figure);
 PageChart change_lines(const StudyData& data, const Figure& figure);
 PageChart cdf_lines(const StudyData& data, const Figure& figure);
 // Rows of marks:

@@ -15,7 +15,6 @@ constexpr size_t kMaxLines = 10;     ///< more lines in one chart cannot be told
 constexpr size_t kMaxPoints = 1200;  ///< positions along x
 constexpr double kZoomShare = 0.7;  ///< an axis starts above 0 if no value is below this share of the largest
 constexpr size_t kGreyColor = 9;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 LinePlot empty_plot(const Figure& figure) {
   LinePlot plot{.id = figure.spec.name};
@@ -76,16 +75,21 @@ void add_bound_lines(const StudyData& data, const Figure& figure, LinePlot& plot
   }
 }
 
-}  // namespace
+bool mostly_words(const Figure& figure) {
+  const auto words = std::ranges::count_if(figure.x_order, [](const std::string& text) {
+    return text.empty() || text.find_first_not_of("0123456789.") != std::string::npos;
+  });
+  return 2 * static_cast<size_t>(words) > figure.x_order.size();
+}
 
 PageChart axis_lines(const StudyData& data, const Figure& figure) {
   LinePlot plot = empty_plot(figure);
   const AxisPositions positions(figure);
   positions.fill(plot);
-  const FigureTable& table = figure.table;
+  const StudyTable& table = figure.table;
   for (const std::string& category : table.distinct("category")) {
     const size_t color = category_color(data, category);
-    PlotLine ours{data.category_title(category), color, std::vector<double>(plot.x.size(), kNone)};
+    PlotLine ours{data.category_title(category), color, std::vector<double>(plot.x.size(), NAN)};
     PlotLine paper{ours.name + ", paper", color, ours.y, true};
     for (size_t row = 0; row < table.rows.size(); ++row) {
       if (table.text(row, "category") != category) continue;
@@ -100,34 +104,40 @@ PageChart axis_lines(const StudyData& data, const Figure& figure) {
   }
   add_bound_lines(data, figure, plot);
   set_bottom(plot);
-  return {.lines = {{{"", std::move(plot)}}, ""}};
+  return {.lines = {{"", {std::move(plot)}}}};
 }
 
-PageChart workload_lines(const StudyData&, const Figure& figure) {
+PageChart workload_lines(const Figure& figure) {
   LinePlot plot = empty_plot(figure);
   const AxisPositions positions(figure);
   positions.fill(plot);
-  const FigureTable& table = figure.table;
+  const StudyTable& table = figure.table;
   const std::vector<std::string> workloads = table.distinct("workload");
   const std::vector<std::string> chosen = spread_choice(workloads);
   for (size_t i = 0; i < chosen.size(); ++i) {
-    PlotLine line{chosen[i], i, std::vector<double>(plot.x.size(), kNone)};
+    PlotLine line{chosen[i], i, std::vector<double>(plot.x.size(), NAN)};
     for (size_t row = 0; row < table.rows.size(); ++row)
       if (table.text(row, "workload") == chosen[i])
         line.y[positions.index(table.text(row, figure.x_column))] = table.number(row, figure.y_column);
     plot.lines.push_back(std::move(line));
   }
   set_bottom(plot);
-  return {.lines = {{{"", std::move(plot)}}, ""}, .remark = choice_remark(chosen.size(), workloads.size())};
+  return {.lines = {{"", {std::move(plot)}}}, .remark = choice_remark(chosen.size(), workloads.size())};
+}
+
+}  // namespace
+
+PageChart axis_chart(const StudyData& data, const Figure& figure) {
+  if (figure.spec.by_workload) return workload_lines(figure);
+  return mostly_words(figure) ? axis_bars(data, figure) : axis_lines(data, figure);
 }
 
 PageChart change_lines(const StudyData&, const Figure& figure) {
-  const FigureTable& table = figure.table;
+  const StudyTable& table = figure.table;
   std::map<std::pair<std::string, std::string>, std::vector<size_t>> rows;
   for (size_t row = 0; row < table.rows.size(); ++row)
     rows[{table.text(row, "workload"), table.text(row, "surface")}].push_back(row);
-  PageChart chart;
-  chart.lines.picked = "Workload";
+  PageChart chart{.picked = "Workload"};
   for (const std::string& workload : table.distinct("workload"))
     for (const auto& [key, own] : rows) {
       if (key.first != workload) continue;
@@ -151,14 +161,14 @@ PageChart change_lines(const StudyData&, const Figure& figure) {
       reduce_line_plot(plot, kMaxPoints);
       std::string label = category.empty() ? workload : workload + " (" + category + ")";
       if (key.second != "0") label += ", surface " + key.second;
-      chart.lines.plots.emplace_back(std::move(label), std::move(plot));
+      chart.lines.push_back({std::move(label), {std::move(plot)}});
     }
   return chart;
 }
 
 PageChart cdf_lines(const StudyData&, const Figure& figure) {
   LinePlot plot = empty_plot(figure);
-  const FigureTable& table = figure.table;
+  const StudyTable& table = figure.table;
   plot.x_log = true;
   plot.y_max = 1;
   const std::vector<std::string> workloads = table.distinct("workload");
@@ -170,8 +180,8 @@ PageChart cdf_lines(const StudyData&, const Figure& figure) {
   std::vector<PlotLine> paper;
   std::vector<PublishedPoint> marks;
   for (const PublishedPoint& point : figure.spec.published) {
-    if (std::isnan(point.number())) continue;
-    cells[point.number()];
+    if (std::isnan(number_or_nan(point.x))) continue;
+    cells[number_or_nan(point.x)];
     marks.push_back(point);
     paper.push_back({"paper, " + point.category, plot.lines.size() + paper.size(), {}, true});
   }
@@ -179,14 +189,14 @@ PageChart cdf_lines(const StudyData&, const Figure& figure) {
     plot.x.push_back(colors);
     for (size_t i = 0; i < chosen.size(); ++i) {
       const auto found = shares.find(chosen[i]);
-      plot.lines[i].y.push_back(found == shares.end() ? kNone : found->second);
+      plot.lines[i].y.push_back(found == shares.end() ? NAN : found->second);
     }
     for (size_t i = 0; i < paper.size(); ++i) {
-      paper[i].y.push_back(marks[i].number() == colors ? marks[i].value : kNone);
+      paper[i].y.push_back(number_or_nan(marks[i].x) == colors ? marks[i].value : NAN);
     }
   }
   plot.lines.insert(plot.lines.end(), paper.begin(), paper.end());
-  return {.lines = {{{"", std::move(plot)}}, ""}, .remark = choice_remark(chosen.size(), workloads.size())};
+  return {.lines = {{"", {std::move(plot)}}}, .remark = choice_remark(chosen.size(), workloads.size())};
 }
 
 }  // namespace tilepress

@@ -14,39 +14,29 @@ namespace {
 
 constexpr size_t kFirstPartColor = 0, kRawPartColor = 9, kSecondPartColor = 1;
 
-/// "this study" and "paper", of which the second is only there for published values.
-std::vector<KeyEntry> comparison_key(bool published) {
-  std::vector<KeyEntry> key = {{"this study", kOurColor}};
-  if (published) key.push_back({"paper", kPaperColor});
-  return key;
-}
-
 /// A row with a bar of the study, and one of the paper where it prints a value.
-ChartRow comparison_row(const std::string& label, const std::string& group, double ours, double paper) {
-  ChartRow row{
-      label, group, {{ours, kOurColor, fmt::format("{}, {}: {}", group, label, shown_number(ours))}}};
-  if (std::isfinite(paper))
-    row.marks.push_back(
-        {paper, kPaperColor, fmt::format("{}, {}, paper: {}", group, label, shown_number(paper))});
-  return row;
-}
-
 PageChart comparison_chart(const StudyData& data, const Figure& figure, const std::string& label_column) {
-  const FigureTable& table = figure.table;
+  const StudyTable& table = figure.table;
   std::vector<ChartRow> rows;
   ValueRange range;
   bool published = false;
   for (size_t row = 0; row < table.rows.size(); ++row) {
-    const double ours = table.number(row, figure.y_column), paper = table.number(row, "published");
-    range.add(ours);
-    if (std::isfinite(paper)) range.add(paper);
+    const std::string& label = table.text(row, label_column);
+    const std::string group = data.category_title(table.text(row, "category"));
+    const double paper = table.number(row, "published");
+    ChartRow& line = rows.emplace_back(ChartRow{label, group, {}, bound_lines(figure, row)});
+    const auto mark = [&](double value, size_t color, const char* owner) {
+      range.add(value);
+      line.marks.push_back(
+          {value, color, fmt::format("{}, {}{}: {}", group, label, owner, shown_number(value))});
+    };
+    mark(table.number(row, figure.y_column), kOurColor, "");
+    if (std::isfinite(paper)) mark(paper, kPaperColor, ", paper");
     published = published || std::isfinite(paper);
-    rows.push_back(comparison_row(table.text(row, label_column),
-                                  data.category_title(table.text(row, "category")), ours, paper));
-    rows.back().lines = bound_lines(figure, row);
   }
   PageChart chart;
-  std::vector<KeyEntry> key = comparison_key(published);
+  std::vector<KeyEntry> key = {{"this study", kOurColor}};
+  if (published) key.push_back({"paper", kPaperColor});
   explain_bounds(figure, key, chart.remark);
   chart.html = chart_key(key) + row_chart(rows, AxisScale::for_rates(0, range.high), RowShape::kBars,
                                           figure.y_label, figure.spec.title);
@@ -61,7 +51,7 @@ std::string folded(size_t rows, const std::string& html) {
 }
 
 /// The workloads of a figure with the rows of each, in the figure's order.
-std::vector<std::pair<std::string, std::vector<size_t>>> rows_of_workloads(const FigureTable& table) {
+std::vector<std::pair<std::string, std::vector<size_t>>> rows_of_workloads(const StudyTable& table) {
   std::vector<std::pair<std::string, std::vector<size_t>>> out;
   for (size_t row = 0; row < table.rows.size(); ++row) {
     const std::string& workload = table.text(row, "workload");
@@ -99,7 +89,7 @@ PageChart mean_bars(const StudyData& data, const Figure& figure) {
 }
 
 PageChart rate_dots(const StudyData& data, const Figure& figure) {
-  const FigureTable& table = figure.table;
+  const StudyTable& table = figure.table;
   std::vector<KeyEntry> key;
   for (const std::string& configuration : figure.x_order)
     key.push_back({configuration, key.size(), name_of(scheme_group(configuration))});
@@ -127,7 +117,7 @@ PageChart rate_dots(const StudyData& data, const Figure& figure) {
 }
 
 PageChart burst_dots(const StudyData& data, const Figure& figure) {
-  const FigureTable& table = figure.table;
+  const StudyTable& table = figure.table;
   const std::vector<std::string> bursts = table.distinct("burst");
   std::vector<KeyEntry> key;
   std::vector<ChartRow> rows;
@@ -153,7 +143,7 @@ PageChart burst_dots(const StudyData& data, const Figure& figure) {
 }
 
 PageChart share_stacks(const StudyData& data, const Figure& figure) {
-  const FigureTable& table = figure.table;
+  const StudyTable& table = figure.table;
   struct Part {
     const char* column;
     const char* label;
@@ -182,7 +172,7 @@ PageChart share_stacks(const StudyData& data, const Figure& figure) {
 }
 
 PageChart coverage_scatter(const StudyData& data, const Figure& figure) {
-  const FigureTable& table = figure.table;
+  const StudyTable& table = figure.table;
   std::vector<ScatterPoint> points;
   std::vector<KeyEntry> key;
   ValueRange range;
@@ -199,7 +189,7 @@ PageChart coverage_scatter(const StudyData& data, const Figure& figure) {
                                   shown_number(coverage), shown_number(rate))});
   }
   double threshold = NAN;
-  for (const PublishedPoint& point : figure.spec.published) threshold = point.number();
+  for (const PublishedPoint& point : figure.spec.published) threshold = number_or_nan(point.x);
   return {.html = chart_key(key) + scatter_chart(points, AxisScale::linear(1, 0.1),
                                                  AxisScale::for_rates(range.low, range.high), figure.x_label,
                                                  figure.y_label, threshold, figure.spec.title),

@@ -12,22 +12,22 @@
 namespace tilepress {
 namespace {
 
-struct StudyFile {
+struct DataFile {
   const char* name;
   StudyTable StudyData::*table;
   bool required;
 };
-constexpr StudyFile kFiles[] = {
-    {"results.csv", &StudyData::results, true},      {"means.csv", &StudyData::means, true},
-    {"workloads.csv", &StudyData::workloads, true},  {"frame_metrics.csv", &StudyData::frame_metrics, false},
-    {"color_cdf.csv", &StudyData::color_cdf, false}, {"frame_rates.csv", &StudyData::frame_rates, false},
-    {"bounds.csv", &StudyData::bounds, false},       {"bound_means.csv", &StudyData::bound_means, false},
+constexpr DataFile kFiles[] = {
+    {"results.csv", &StudyData::results, true},
+    {"means.csv", &StudyData::means, true},
+    {"workloads.csv", &StudyData::workloads, true},
+    {"frame_metrics.csv", &StudyData::frame_metrics, false},
+    {"color_cdf.csv", &StudyData::color_cdf, false},
+    {"frame_rates.csv", &StudyData::frame_rates, false},
+    {"bounds.csv", &StudyData::bounds, false},
+    {"bound_means.csv", &StudyData::bound_means, false},
     {"sensitivity.csv", &StudyData::sensitivity, false},
 };
-
-double number_or_nan(const StudyTable& table, std::optional<size_t> row, std::string_view column) {
-  return row ? table.number(*row, column) : NAN;
-}
 
 /// The number in the row of a table of bounds whose first column holds `subject`.
 double bound_number(const StudyTable& table, std::string_view subject_column, const std::string& subject,
@@ -40,15 +40,6 @@ double bound_number(const StudyTable& table, std::string_view subject_column, co
 
 }  // namespace
 
-std::vector<std::string> StudyData::bound_names() const {
-  std::vector<std::string> names;
-  for (size_t row = 0; row < bound_means.row_count(); ++row)
-    if (const std::string& name = bound_means.text(row, "bound");
-        std::find(names.begin(), names.end(), name) == names.end())
-      names.push_back(name);
-  return names;
-}
-
 double StudyData::bound(const std::string& workload, const std::string& name, std::string_view column) const {
   return bound_number(bounds, "workload", workload, name, column);
 }
@@ -58,16 +49,10 @@ double StudyData::bound_mean(const std::string& category, const std::string& nam
   return bound_number(bound_means, "category", category, name, column);
 }
 
-std::optional<size_t> StudyData::result_row(const std::string& workload,
-                                            const std::string& configuration) const {
-  const auto found = result_rows_.find({workload, configuration});
-  return found == result_rows_.end() ? std::nullopt : std::optional(found->second);
-}
-
-std::optional<size_t> StudyData::mean_row(const std::string& category,
-                                          const std::string& configuration) const {
-  const auto found = mean_rows_.find({category, configuration});
-  return found == mean_rows_.end() ? std::nullopt : std::optional(found->second);
+double StudyData::number_in(const StudyTable& table, const std::map<Pair, size_t>& rows, const Pair& subject,
+                            std::string_view column) {
+  const auto found = rows.find(subject);
+  return found == rows.end() ? NAN : table.number(found->second, column);
 }
 
 std::string StudyData::key_text(size_t row, const std::string& key) const {
@@ -78,12 +63,12 @@ std::string StudyData::key_text(size_t row, const std::string& key) const {
 
 double StudyData::result(const std::string& workload, const std::string& configuration,
                          std::string_view column) const {
-  return number_or_nan(results, result_row(workload, configuration), column);
+  return number_in(results, result_rows_, {workload, configuration}, column);
 }
 
 double StudyData::mean(const std::string& category, const std::string& configuration,
                        std::string_view column) const {
-  return number_or_nan(means, mean_row(category, configuration), column);
+  return number_in(means, mean_rows_, {category, configuration}, column);
 }
 
 std::string StudyData::spelled_category(const std::string& name) const {
@@ -99,11 +84,11 @@ std::string StudyData::category_title(const std::string& category) const {
   return category.empty() ? "no category" : category;
 }
 
-std::string StudyData::order_configuration() const {
-  const bool has_dcp =
-      std::find(configurations_.begin(), configurations_.end(), "dcp") != configurations_.end();
-  if (has_dcp) return "dcp";
-  return configurations_.empty() ? "" : configurations_.front();
+std::vector<size_t> StudyData::workloads_of(const std::string& category) const {
+  std::vector<size_t> rows = ordered_workloads_;
+  if (category != kAllCategories)
+    std::erase_if(rows, [&](size_t row) { return workloads.text(row, "category") != category; });
+  return rows;
 }
 
 void StudyData::index() {
@@ -133,7 +118,8 @@ void StudyData::index_means() {
 }
 
 void StudyData::order_workloads() {
-  const std::string configuration = order_configuration();
+  std::string configuration = configurations_.empty() ? "" : configurations_.front();
+  if (std::ranges::count(configurations_, "dcp") > 0) configuration = "dcp";
   std::vector<std::tuple<size_t, double, size_t>> keys;
   for (size_t row = 0; row < workloads.row_count(); ++row) {
     const std::string& category = workloads.text(row, "category");
@@ -155,7 +141,7 @@ Result<StudyData> read_study_data(const std::string& study_folder) {
   if (!spec) return spec.error();
   data.spec = std::move(*spec);
   data.facts = read_render_facts(study_folder + "/provenance.json");
-  for (const StudyFile& file : kFiles) {
+  for (const DataFile& file : kFiles) {
     const std::string path = study_folder + "/" + file.name;
     if (!file.required && !std::filesystem::exists(path)) continue;
     auto table = StudyTable::read(path);

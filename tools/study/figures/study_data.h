@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,18 +21,14 @@ class StudyData {
   /// What rendered the frames, from provenance.json: name and distinct values.
   std::vector<std::pair<std::string, std::string>> facts;
 
-  /// Row of results.csv.
-  std::optional<size_t> result_row(const std::string& workload, const std::string& configuration) const;
-  /// Row of means.csv.
-  std::optional<size_t> mean_row(const std::string& category, const std::string& configuration) const;
   /// A key's value in a row of results.csv. The FVC's default associativity is "full".
   std::string key_text(size_t row, const std::string& key) const;
-  /// A number of these rows; NaN without the row.
+  /// A number of results.csv, or of means.csv; NaN without the row.
   double result(const std::string& workload, const std::string& configuration, std::string_view column) const;
   double mean(const std::string& category, const std::string& configuration, std::string_view column) const;
 
   /// The bounds of the study, as bound_means.csv names them. Empty without that file.
-  std::vector<std::string> bound_names() const;
+  std::vector<std::string> bound_names() const { return bound_means.distinct("bound"); }
   /// A number of bounds.csv, or of bound_means.csv; NaN without the row.
   double bound(const std::string& workload, const std::string& name, std::string_view column) const;
   double bound_mean(const std::string& category, const std::string& name, std::string_view column) const;
@@ -47,16 +42,18 @@ class StudyData {
   /// Rows of workloads.csv with results, in the paper's order: by category, within a category by
   /// rate_payload of DCP (or of the first configuration), smallest first.
   const std::vector<size_t>& ordered_workloads() const { return ordered_workloads_; }
+  /// Those of a category; all of kAllCategories.
+  std::vector<size_t> workloads_of(const std::string& category) const;
   /// Configurations of results.csv in the study's order.
   const std::vector<std::string>& configurations() const { return configurations_; }
-  /// The configuration whose rate orders workloads.
-  std::string order_configuration() const;
 
   /// Fills the look-ups from the tables.
   void index();
 
  private:
   using Pair = std::pair<std::string, std::string>;
+  static double number_in(const StudyTable& table, const std::map<Pair, size_t>& rows, const Pair& subject,
+                          std::string_view column);
   void index_means();
   void order_workloads();
   std::map<Pair, size_t> result_rows_, mean_rows_;

@@ -3,6 +3,7 @@
 
 #include "streams/output_file.h"
 #include "study/figures/claims.h"
+#include "study/figures/document_table.h"
 #include "study/figures/figure.h"
 #include "study/figures/study_outputs.h"
 #include "study/figures/study_page.h"
@@ -29,10 +30,10 @@ class OutputFolder {
   Result<void> state_;
 };
 
-void write_table(OutputFolder& folder, const DocumentTable& table, const std::string& stem) {
-  folder.write(stem + ".md", table.markdown());
-  folder.write(stem + ".tex", table.latex());
-  folder.write(stem + ".html", table.html());
+void write_table(OutputFolder& folder, const Table& table, const std::string& stem) {
+  folder.write(stem + ".md", table_markdown(table));
+  folder.write(stem + ".tex", table_latex(table));
+  folder.write(stem + ".html", table_page(table));
 }
 
 std::vector<Figure> make_figures(const StudyData& data, std::vector<std::string>& lines) {
@@ -73,8 +74,8 @@ Result<std::vector<std::string>> write_study_data(const std::string& study_folde
   for (const Figure& figure : figures)
     folder.write("figures/" + figure.spec.name + ".csv", figure.table.csv());
   folder.write("figures/figures.json", figures_json(*data, figures));
-  const std::vector<DocumentTable> tables = study_tables(*data);
-  for (const DocumentTable& table : tables) write_table(folder, table, "tables/" + table.name);
+  const std::vector<Table> tables = study_tables(*data);
+  for (const Table& table : tables) write_table(folder, table, "tables/" + table.name);
   const std::vector<Claim> claims = make_claims(*data);
   folder.write("claims.csv", claims_csv(claims));
   write_table(folder, claims_table(claims), "claims");

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "counted.h"
-#include "report/page_assets.h"
+#include "report/report_page.h"
 #include "study/figures/page_figures.h"
 
 namespace tilepress {
@@ -16,63 +16,18 @@ namespace {
 constexpr size_t kMaxTableRows = 400;  ///< of a figure on the page; its CSV file has all
 constexpr size_t kOpenRows = 40;       ///< a longer table without a chart is folded
 
-/// Chooses the drawing by the figure's kind and shape.
-struct ChartRule {
-  const char* kind;
-  PageChart (*make)(const StudyData& data, const Figure& figure);
-};
-constexpr ChartRule kCharts[] = {{"metrics over time", change_lines},
-                                 {"colour CDF", cdf_lines},
-                                 {"coverage against rate", coverage_scatter},
-                                 {"rates of workloads", rate_dots},
-                                 {"means", mean_bars},
-                                 {"rate over bursts", burst_dots},
-                                 {"hybrid shares", share_stacks}};
-
-bool mostly_words(const Figure& figure) {
-  size_t words = 0;
-  for (const std::string& text : figure.x_order) {
-    const bool digits = !text.empty() && text.find_first_not_of("0123456789.") == std::string::npos;
-    words += digits ? 0 : 1;
-  }
-  return 2 * words > figure.x_order.size();
-}
-
 Table figure_table(const Figure& figure) {
-  Table table;
-  table.id = "table-" + figure.spec.name;
-  table.caption = figure.spec.title;
-  table.header = figure.table.header;
-  for (size_t row = 0; row < figure.table.rows.size(); ++row) {
+  Table table{.name = figure.spec.name, .caption = figure.spec.title, .header = figure.table.header};
+  for (const auto& texts : figure.table.rows) {
     auto& cells = table.rows.emplace_back();
-    for (const std::string& column : table.header) {
-      const double number = figure.table.number(row, column);
-      const std::string& text = figure.table.text(row, column);
+    for (const std::string& text : texts) {
+      const double number = number_or_nan(text);
       const bool fraction = std::isfinite(number) && number != std::floor(number);
-      cells.push_back({fraction ? shown_number(number) : escape_html(text), text});
+      cells.push_back({fraction ? shown_number(number) : text, text});
     }
   }
   return table;
 }
-
-/// Collects the line charts of the page for its script.
-class LineSeries {
- public:
-  /// Returns the place where the script puts the charts.
-  std::string add(const PageLines& lines) {
-    std::string& out = json_.emplace_back("{\"surfaces\":[");
-    for (size_t i = 0; i < lines.plots.size(); ++i)
-      out += fmt::format("{}{{\"label\":\"{}\",\"plots\":[{}]}}", i > 0 ? "," : "",
-                         escape_json(lines.plots[i].first), line_plot_json(lines.plots[i].second));
-    out += "]}";
-    return fmt::format("<div class=\"line-charts\" data-series=\"{}\" data-picked=\"{}\"></div>\n",
-                       json_.size() - 1, lines.picked);
-  }
-  std::string json() const { return fmt::format("[{}]", fmt::join(json_, ",\n")); }
-
- private:
-  std::vector<std::string> json_;
-};
 
 std::string file_links(const Figure& figure, bool drawn) {
   constexpr std::pair<const char*, const char*> kFiles[] = {{"csv", "CSV"}, {"svg", "SVG"}, {"pdf", "PDF"}};
@@ -83,33 +38,33 @@ std::string file_links(const Figure& figure, bool drawn) {
   return out + "</p>\n";
 }
 
-std::string figure_section(const StudyData& data, const Figure& figure, bool drawn, LineSeries& series) {
+/// `series`: the line charts of the page for its script.
+std::string figure_section(const StudyData& data, const Figure& figure, bool drawn,
+                           std::vector<std::string>& series) {
   const PageChart chart = page_chart(data, figure);
   std::string out =
       fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", figure.spec.name, escape_html(figure.spec.title));
   const std::string note = figure.spec.caption + (chart.remark.empty() ? "" : " " + chart.remark);
   out += "<p class=\"note\">" + escape_html(note) + "</p>\n";
   if (!chart.html.empty()) out += "<div class=\"chart\">\n" + chart.html + "</div>\n";
-  if (!chart.lines.plots.empty()) out += series.add(chart.lines);
+  if (!chart.lines.empty()) {
+    out += fmt::format("<div class=\"line-charts\" data-series=\"{}\" data-picked=\"{}\"></div>\n",
+                       series.size(), chart.picked);
+    series.push_back("{\"surfaces\":" + surfaces_json(chart.lines) + "}");
+  }
   out += file_links(figure, drawn);
   // Line charts have a table of their own.
-  if (chart.lines.plots.empty() && figure.table.rows.size() <= kMaxTableRows)
+  if (chart.lines.empty() && figure.table.rows.size() <= kMaxTableRows)
     out += "<details><summary>The rows of the CSV file</summary>\n" + table_html(figure_table(figure)) +
            "</details>\n";
   return out + "</section>\n";
 }
 
-std::string table_section(const DocumentTable& table) {
-  std::string out = fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", table.name, escape_html(table.caption));
-  if (!table.note.empty()) out += "<p class=\"note\">" + escape_html(table.note) + "</p>\n";
-  Table shown = table.page_table();
-  shown.caption.clear();  // the heading says it
-  const std::string text = table_html(shown);
-  out += table.rows.size() <= kOpenRows ? text
-                                        : fmt::format("<details><summary>{}</summary>\n{}</details>\n",
-                                                      counted(table.rows.size(), "row"), text);
-  return out + "<div class=\"tools\">" + csv_button("table-" + table.name, table.name + ".csv") +
-         "</div>\n</section>\n";
+Section table_section(const Table& table) {
+  Section out{.heading = table.caption, .note = escape_html(table.note), .table = table};
+  out.table.caption.clear();  // the heading says it
+  out.folded = table.rows.size() > kOpenRows;
+  return out;
 }
 
 /// A line that names the workloads without results; empty if there are none.
@@ -141,49 +96,33 @@ std::string lead_text(const StudyData& data) {
 
 }  // namespace
 
-PageChart page_chart(const StudyData& data, const Figure& figure) {
-  for (const ChartRule& rule : kCharts)
-    if (figure.spec.kind == rule.kind) return rule.make(data, figure);
-  if (figure.spec.by_workload) return workload_lines(data, figure);
-  return mostly_words(figure) ? axis_bars(data, figure) : axis_lines(data, figure);
-}
-
 std::string study_page(const StudyData& data, const std::vector<Claim>& claims,
-                       const std::vector<Figure>& figures, const std::vector<DocumentTable>& tables,
+                       const std::vector<Figure>& figures, const std::vector<Table>& tables,
                        const std::vector<std::string>& drawn) {
-  LineSeries series;
+  std::vector<std::string> series;
   std::string nav, sections = missing_workloads(data);
-  const auto link = [&](const std::string& id, const std::string& heading) {
-    nav += fmt::format("<a href=\"#{}\">{}</a>\n", escape_html(id), escape_html(heading));
-  };
   const Section claimed = claims_section(claims);
-  link(claimed.id, "Claims");
+  nav += section_link(claimed.table.name, "Claims");
   sections += section_html(claimed);
   for (const Figure& figure : figures) {
     const bool has_drawing = std::find(drawn.begin(), drawn.end(), figure.spec.name) != drawn.end();
-    link(figure.spec.name, figure.spec.title);
+    nav += section_link(figure.spec.name, figure.spec.title);
     sections += figure_section(data, figure, has_drawing, series);
   }
-  for (const DocumentTable& table : tables) {
-    link(table.name, table.caption);
-    sections += table_section(table);
+  for (const Table& table : tables) {
+    nav += section_link(table.name, table.caption);
+    sections += section_html(table_section(table));
   }
-  const std::string footer =
-      "<p>Made from the CSV files and study.json in this folder; provenance.json names every input. The line "
-      "charts use uPlot 1.6.32 (MIT licence, text in the page's source).</p>";
-  return fill_slots(kPageTemplate, {{"version", data.spec.version},
-                                    {"title", escape_html(data.spec.title)},
-                                    {"lead", escape_html(lead_text(data))},
-                                    {"uplot_style", std::string(kUplotStyle)},
-                                    {"uplot_script", std::string(kUplotScript)},
-                                    {"uplot_licence", std::string(kUplotLicence)},
-                                    {"style", std::string(kPageStyle)},
-                                    {"script", std::string(kPageScript)},
-                                    {"markers", marker_definitions()},
-                                    {"nav", nav},
-                                    {"sections", sections},
-                                    {"series", series.json()},
-                                    {"footer", footer}});
+  return page_html(
+      {{"version", data.spec.version},
+       {"title", escape_html(data.spec.title)},
+       {"lead", escape_html(lead_text(data))},
+       {"markers", marker_definitions()},
+       {"nav", nav},
+       {"sections", sections},
+       {"series", fmt::format("[{}]", fmt::join(series, ",\n"))},
+       {"footer",
+        "Made from the CSV files and study.json in this folder; provenance.json names every input."}});
 }
 
 }  // namespace tilepress

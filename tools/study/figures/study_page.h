@@ -15,7 +15,7 @@ Section claims_section(const std::vector<Claim>& claims);
 
 /// The page: claims, figures, workloads, tables. `drawn` names the figures that have NAME.svg and NAME.pdf.
 std::string study_page(const StudyData& data, const std::vector<Claim>& claims,
-                       const std::vector<Figure>& figures, const std::vector<DocumentTable>& tables,
+                       const std::vector<Figure>& figures, const std::vector<Table>& tables,
                        const std::vector<std::string>& drawn);
 
 }  // namespace tilepress

@@ -3,13 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "tilepress/csv_table.h"
+#include "tilepress/whole_file.h"
 
 namespace tilepress {
 namespace {
@@ -80,23 +78,12 @@ StudySpec spec_of(const Json& json) {
 
 }  // namespace
 
-double PublishedPoint::number() const {
-  double number = 0;
-  return read_csv(x, number) ? number : NAN;
-}
-
-const FigureAxis* StudySpec::find_axis(const std::string& wanted) const {
-  const auto found =
-      std::find_if(axes.begin(), axes.end(), [&](const FigureAxis& axis) { return axis.name == wanted; });
-  return found == axes.end() ? nullptr : &*found;
-}
-
 std::vector<std::pair<std::string, std::string>> read_render_facts(const std::string& path) {
   constexpr std::pair<const char*, const char*> kFacts[] = {{"renderer", "gl_renderer"},
                                                             {"GL version", "gl_version"}};
   std::vector<std::pair<std::string, std::string>> out;
-  std::ifstream file(path);
-  const Json json = Json::parse(file, nullptr, false);
+  const auto document = read_whole_file(path);
+  const Json json = document ? Json::parse(*document, nullptr, false) : Json();
   if (!json.is_object()) return out;
   for (const auto& [name, key] : kFacts) {
     std::set<std::string> values;
@@ -108,10 +95,10 @@ std::vector<std::pair<std::string, std::string>> read_render_facts(const std::st
 }
 
 Result<StudySpec> read_study_spec(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return Error{ErrorKind::kFile, path + ": cannot be opened"};
+  const auto text = read_whole_file(path);
+  if (!text) return Error{ErrorKind::kFile, path + ": cannot be opened"};
   try {
-    return spec_of(Json::parse(file));
+    return spec_of(Json::parse(*text));
   } catch (const Json::exception& fault) {
     return Error{ErrorKind::kFile, path + ": " + fault.what()};
   }

@@ -24,8 +24,6 @@ struct PublishedPoint {
   std::string x;         ///< value of the axis, or a configuration
   std::string category;  ///< empty: of every category
   double value = 0;
-  /// `x` as a number; NaN for a word.
-  double number() const;
 };
 
 /// One figure of the study file.
@@ -50,9 +48,6 @@ struct StudySpec {
   std::vector<FigureCategory> categories;
   std::vector<FigureAxis> axes;
   std::vector<FigureSpec> figures;
-
-  /// Null if there is no such axis.
-  const FigureAxis* find_axis(const std::string& name) const;
 };
 
 /// The distinct renderers and GL versions of provenance.json, each as a name and a text. Empty without the

@@ -29,31 +29,21 @@ std::vector<std::string> drawn_configurations(const StudyData& data, const Figur
   return out;
 }
 
-/// Calls visit(workload, category) for each workload of the figure, in the paper's order.
-template <class Visit>
-void each_workload(const StudyData& data, const FigureSpec& spec, Visit visit) {
-  for (const size_t row : data.ordered_workloads()) {
-    const std::string& workload = data.workloads.text(row, "workload");
-    const std::string& category = data.workloads.text(row, "category");
-    if (shows_workload(spec, workload) && shows_category(spec, category)) visit(workload, category);
-  }
-}
-
 }  // namespace
 
 Result<Figure> rates_of_workloads(const StudyData& data, const FigureSpec& spec) {
   Figure figure{.spec = spec};
   figure.table.header = {"workload", "category", "order", "configuration", spec.value};
-  size_t order = 0;
-  each_workload(data, spec, [&](const std::string& workload, const std::string& category) {
-    ++order;
+  for (size_t order = 1; const size_t row : drawn_workloads(data, spec)) {
+    const std::string& workload = data.workloads.text(row, "workload");
     for (const std::string& configuration : drawn_configurations(data, spec)) {
       const double rate = data.result(workload, configuration, spec.value);
       if (std::isfinite(rate))
-        figure.table.rows.push_back(
-            {workload, category, std::to_string(order), configuration, number_cell_text(rate)});
+        figure.table.rows.push_back({workload, data.workloads.text(row, "category"), std::to_string(order),
+                                     configuration, number_cell_text(rate)});
     }
-  });
+    ++order;
+  }
   add_bound_columns(data, spec, figure.table);
   figure.x_column = "order";
   figure.y_column = spec.value;
@@ -122,16 +112,16 @@ Result<Figure> hybrid_shares(const StudyData& data, const FigureSpec& spec) {
   Figure figure{.spec = spec};
   figure.table.header = {"workload",  "category",  "order",     "blocks",  "vdcp_share",
                          "ras_share", "raw_share", "vdcp_only", "ras_only"};
-  size_t order = 0;
-  each_workload(data, spec, [&](const std::string& workload, const std::string& category) {
+  for (const size_t row : drawn_workloads(data, spec)) {
+    const std::string& workload = data.workloads.text(row, "workload");
     const HybridBlocks blocks = hybrid_blocks(data, workload, configuration);
-    if (!(blocks.all() > 0)) return;
-    std::vector<std::string> row = {workload, category, std::to_string(++order),
-                                    number_cell_text(blocks.all())};
+    if (!(blocks.all() > 0)) continue;
+    const std::string order = std::to_string(figure.table.rows.size() + 1);
+    auto& cells = figure.table.rows.emplace_back(
+        std::vector{workload, data.workloads.text(row, "category"), order, number_cell_text(blocks.all())});
     for (const double part : {blocks.vdcp, blocks.ras, blocks.raw, blocks.vdcp_only(), blocks.ras_only()})
-      row.push_back(number_cell_text(part / blocks.all()));
-    figure.table.rows.push_back(std::move(row));
-  });
+      cells.push_back(number_cell_text(part / blocks.all()));
+  }
   figure.x_column = "order";
   figure.y_column = "vdcp_share";
   figure.x_label = "workload";

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -80,7 +81,8 @@ bool measure(const std::string& path) {
       for (uint64_t i = 0; i < fresh.frame_count(); ++i) good &= static_cast<bool>(fresh.view(i));
     });
   }
-  const double raw = static_cast<double>(reader.raw_bytes()), file = static_cast<double>(reader.file_bytes());
+  const double raw = static_cast<double>(reader.raw_bytes()),
+               file = static_cast<double>(std::filesystem::file_size(path));
   const std::string name = reader.origin().input.empty() ? path : reader.origin().input;
   std::printf("%s\n  %zu frames, raw %.1f MB, LZ4 %.1f MB, zstd -3 %.1f MB, cache %.1f MB: %.3f of zstd -3\n",
               name.c_str(), static_cast<size_t>(reader.frame_count()), raw / 1e6,

@@ -6,6 +6,7 @@
 
 #include "report/published_means.h"
 #include "study/figures/claims.h"
+#include "study/figures/document_table.h"
 
 namespace tilepress {
 namespace {
@@ -65,29 +66,28 @@ TEST(Claims, AreShownWithTheirUnits) {
   EXPECT_EQ(claim_value(NAN, ClaimUnit::kRate), "–");
 }
 
-DocumentTable sample_table() {
-  DocumentTable table{.name = "t", .caption = "50 % & more"};
+Table sample_table() {
+  Table table{.name = "t", .caption = "50 % & more"};
   table.header = {"name", "a_b"};
-  table.rows = {{document_text("x|y<z"), document_share(0.5)},
-                {document_text("q,\"r\""), document_number(NAN)}};
+  table.rows = {{text_cell("x|y<z"), percent_cell(0.5)}, {text_cell("q,\"r\""), number_cell(NAN)}};
   return table;
 }
 
 TEST(DocumentTable, EscapesWhatEachFormatReserves) {
-  const DocumentTable table = sample_table();
+  const Table table = sample_table();
   EXPECT_EQ(
-      table.markdown(),
+      table_markdown(table),
       "**50 % & more**\n\n| name | a\\_b |\n| --- | ---: |\n| x\\|y&lt;z | 50.0 % |\n| q,\"r\" | – |\n");
-  EXPECT_NE(table.latex().find("\\caption{50 \\% \\& more}"), std::string::npos);
-  EXPECT_NE(table.latex().find("x|y$<$z & 50.0 \\% \\\\"), std::string::npos);
-  EXPECT_NE(table.html().find("x|y&lt;z"), std::string::npos);
-  EXPECT_EQ(table.csv(), "name,a_b\nx|y<z,0.5\n\"q,\"\"r\"\"\",\n");
+  EXPECT_NE(table_latex(table).find("\\caption{50 \\% \\& more}"), std::string::npos);
+  EXPECT_NE(table_latex(table).find("x|y$<$z & 50.0 \\% \\\\"), std::string::npos);
+  EXPECT_NE(table_page(table).find("x|y&lt;z"), std::string::npos);
+  EXPECT_EQ(table_csv(table), "name,a_b\nx|y<z,0.5\n\"q,\"\"r\"\"\",\n");
 }
 
 TEST(DocumentTable, LatexKeepsItsOwnSignsWhole) {
-  DocumentTable table = sample_table();
+  Table table = sample_table();
   table.caption = "a\\b {c} 8×8 − 1";
-  EXPECT_NE(table.latex().find("a\\textbackslash{}b \\{c\\} 8$\\times$8 $-$ 1"), std::string::npos);
+  EXPECT_NE(table_latex(table).find("a\\textbackslash{}b \\{c\\} 8$\\times$8 $-$ 1"), std::string::npos);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST(AxisScale, PowersOfTwoOverAFactorOfSixteenAreLogarithmicAndWordsAreCategori
 TEST_F(StudyFolder, ARelativeAxisDividesTheMeansAndTheRatesOfEachWorkload) {
   const auto figure = make_figure(data(), axis_spec());
   ASSERT_TRUE(figure) << figure.error().text;
-  const FigureTable& table = figure->table;
+  const StudyTable& table = figure->table;
   ASSERT_EQ(table.rows.size(), 4u);  // three of UI, and vdcp alone of 3D
   // fvc=128: 4.8 / 3 = 1.6; of the workloads: 6 / 6 and 4 / 2.
   EXPECT_EQ(table.text(2, "fvc"), "128");
@@ -110,7 +110,7 @@ TEST_F(StudyFolder, WorkloadsStandByCategoryAndInItByTheRateOfDcp) {
 TEST_F(StudyFolder, RawBlocksOfAHybridAreTakenFromThoseOfVdcp) {
   const auto figure = make_figure(data(), {.name = "f", .kind = "hybrid shares"});
   ASSERT_TRUE(figure);
-  const FigureTable& table = figure->table;
+  const StudyTable& table = figure->table;
   ASSERT_EQ(table.rows.size(), 2u);
   // "a" has no count of raw blocks: 30 of 40. "b,1": 30 − 6 of 40, 6 of 40, 10 of 40.
   EXPECT_EQ(table.number(0, "vdcp_only"), 0.75);
