@@ -1,5 +1,5 @@
-// Make plan: the study, its inputs, their categories, and the tasks. A unit of its own: tests of tasks link no readers
-// of inputs.
+// Make plan: the study, its inputs, their categories, and the tasks. A unit of its own: tests of tasks link
+// no readers of inputs.
 #include <filesystem>
 
 #include "study/study_plan.h"

@@ -7,7 +7,8 @@
 
 namespace tilepress {
 
-extern const std::string_view kDrawFiguresScript, kFigureDrawingsScript;  // embedded at build time
+extern const std::string_view kDrawFiguresScript, kFigureDrawingsScript,
+    kFigureStylesScript;  // embedded at build time
 
 namespace {
 
@@ -22,7 +23,8 @@ constexpr const char* kPythons[] = {"python3", "/usr/bin/python3"};
 /// why.
 Result<std::vector<std::string>> draw_figures(const std::string& study_folder) {
   const std::pair<const char*, std::string_view> scripts[] = {{"draw_figures.py", kDrawFiguresScript},
-                                                              {"figure_drawings.py", kFigureDrawingsScript}};
+                                                              {"figure_drawings.py", kFigureDrawingsScript},
+                                                              {"figure_styles.py", kFigureStylesScript}};
   for (const auto& [name, text] : scripts)
     if (const auto written = write_whole_file(study_folder + "/figures/" + name, text, true); !written)
       return written.error();

@@ -21,6 +21,8 @@ from pathlib import Path
 
 from figure_drawings import KINDS, Drawing
 
+SCRIPTS = ("draw_figures.py", "figure_drawings.py", "figure_styles.py")
+
 
 def load_matplotlib():
     os.environ.setdefault("SOURCE_DATE_EPOCH", "0")
@@ -61,7 +63,7 @@ def main():
         drawn = json.loads(record.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         drawn = {}
-    script = b"".join((Path(__file__).parent / file).read_bytes() for file in ("draw_figures.py", "figure_drawings.py"))
+    script = b"".join((Path(__file__).parent / file).read_bytes() for file in SCRIPTS)
     plt, status, now = None, 0, {}
     for about in document["figures"]:
         name = about["name"]

@@ -135,7 +135,7 @@ def check_drawings(folder, names):
 
 def check_drawing(folder, scripts):
     names = [figure["name"] for figure in json.loads((folder / "figures/figures.json").read_text())["figures"]]
-    for script in ("draw_figures.py", "figure_drawings.py"):
+    for script in ("draw_figures.py", "figure_drawings.py", "figure_styles.py"):
         shutil.copy(scripts / script, folder / "figures" / script)
     (folder / "nothing").mkdir()
     (folder / "nothing/matplotlib.py").write_text("raise ImportError('not here')\n")
@@ -192,7 +192,7 @@ axis = "nowhere"
         make_study.workloads, make_study.BASE = plain, base
     done = subprocess.run([program, folder], capture_output=True, text=True)
     expect(done.stdout == "figure gone: the study has no axis 'nowhere'\n" and done.returncode == 0, f"odd names: {done.stdout}{done.stderr}")
-    for script in ("draw_figures.py", "figure_drawings.py"):
+    for script in ("draw_figures.py", "figure_drawings.py", "figure_styles.py"):
         shutil.copy(scripts / script, folder / "figures" / script)
     done = draw(python_with_matplotlib(), folder)
     expect(done.returncode == 0 and done.stderr == "", f"odd names: {done.stderr}")
