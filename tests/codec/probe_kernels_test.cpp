@@ -33,6 +33,14 @@ ProbeTable table_of(const BlockPixels& pixels) {
   return table;
 }
 
+/// Pixels of few colours, and some of colours that meet other colours in the table's buckets.
+BlockPixels draw_pixels(patterns::Dice& dice) {
+  BlockPixels pixels = draw_block(1 + dice.below(40), 1 + dice.below(8), dice);
+  for (uint32_t& pixel : pixels)
+    if (dice.below(8) == 0) pixel = dice.next();
+  return pixels;
+}
+
 struct Found {
   std::array<uint16_t, 64> indices{};
   std::array<uint8_t, 16> widths{};
@@ -44,7 +52,7 @@ struct Found {
 TEST(ProbeKernels, FindIsTheSameOnEveryTarget) {
   patterns::Dice dice(1);
   for (int round = 0; round < kRounds && !HasFatalFailure(); ++round) {
-    const auto pixels = draw_block(1 + dice.below(40), 1 + dice.below(8), dice);
+    const BlockPixels pixels = draw_pixels(dice);
     const ProbeTable table = table_of(draw_block(1 + dice.below(60), 2, dice));
     Found wanted;
     kPlain.find(pixels.data(), table, wanted.indices.data(), wanted.widths.data());
@@ -77,7 +85,7 @@ TEST(ProbeKernels, FindFewIsTheSameOnEveryTarget) {
 TEST(ProbeKernels, MembersIsTheSameOnEveryTarget) {
   patterns::Dice dice(3);
   for (int round = 0; round < kRounds && !HasFatalFailure(); ++round) {
-    const auto pixels = draw_block(1 + dice.below(40), 1 + dice.below(8), dice);
+    const BlockPixels pixels = draw_pixels(dice);
     const ProbeTable table = table_of(draw_block(1 + dice.below(60), 2, dice));
     uint32_t crowded[8];
     uint32_t crowded_count = 0;
