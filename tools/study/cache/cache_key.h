@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "study/cache/cached_rendering.h"
+#include "study/cache/rendering.h"
+#include "tilepress/result.h"
 
 namespace tilepress {
 
