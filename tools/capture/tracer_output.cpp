@@ -17,6 +17,11 @@ void TracerOutput::begin() {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return;
   given_ = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (given_ < 0) {
+    close(ends[0]);
+    close(ends[1]);
+    return;
+  }
   dup2(ends[1], STDERR_FILENO);
   close(ends[1]);
   pipe_ = ends[0];

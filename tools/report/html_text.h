@@ -19,8 +19,7 @@ std::string escape_html(std::string_view text);
 /// `text` as the inside of a JSON string that may stand in a script element.
 std::string escape_json(std::string_view text);
 /// `text` as part of a file name or element id: letters, digits, '_' and the characters of `kept` stay,
-/// others become
-/// '_'. "run" for an empty text.
+/// others become '_'. "run" for an empty text.
 std::string file_slug(std::string_view text, std::string_view kept = ".-");
 /// Three decimals, or fewer digits for large values; "–" for NaN.
 std::string shown_number(double value);

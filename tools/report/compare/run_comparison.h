@@ -27,8 +27,8 @@ struct SchemeComparison {
 
 struct RunComparison {
   std::string name;                 ///< workload
-  std::vector<std::string>
-      options;                      ///< "tile 32 in A, 64 in B" for each option that changes rows and differs
+  /// "tile 32 in A, 64 in B" for each option that changes rows and differs.
+  std::vector<std::string> options;
   uint64_t common = 0;              ///< measured frames compared
   uint64_t only_a = 0, only_b = 0;  ///< measured frames that the other run lacks
   /// Common frames whose size or content metrics (colours, entropy) differ: not the same pictures.
